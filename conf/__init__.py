@@ -1,0 +1,1 @@
+"""Every tunable number, once, with its unit."""

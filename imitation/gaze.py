@@ -1,0 +1,50 @@
+"""Visual space: the image as it would be if the camera looked along the reference gaze."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from imitation.arrays import Array
+
+
+def rotation(gaze: Array) -> Array:
+    """Camera axes at `gaze` (pan, tilt) [rad], (3, 3); columns: right, down, forward.
+
+    World axes: x ahead, y left, z up. Pan turns left, tilt turns up.
+    """
+    (sin_pan, sin_tilt), (cos_pan, cos_tilt) = np.sin(gaze), np.cos(gaze)
+    right = (sin_pan, -cos_pan, 0.0)
+    down = (sin_tilt * cos_pan, sin_tilt * sin_pan, -cos_tilt)
+    forward = (cos_tilt * cos_pan, cos_tilt * sin_pan, sin_tilt)
+    return np.array((right, down, forward)).T
+
+
+@dataclass(frozen=True)
+class VisualSpace:
+    """The image plane at the reference gaze, (width, height) [px].
+
+    The projection between gazes is exact for a camera that turns about its optical centre.
+    """
+
+    size: tuple[int, int]  # width, height [px]
+    focal: float  # focal length [px]
+    centre: tuple[float, float]  # where the optical axis meets the image [px]
+    reference: tuple[float, float]  # pan, tilt of the reference gaze [rad]
+
+    def to_visual_space(self, points: Array, gaze: Array) -> Array:
+        """Image `points` (n, 2) [px] of a camera at `gaze` [rad], in visual space (n, 2) [px].
+
+        A point behind the reference image plane becomes nan.
+        """
+        if np.array_equal(gaze, self.reference):
+            return points
+        rays = np.column_stack(((points - self.centre) / self.focal, np.ones(len(points))))
+        turn = rotation(np.asarray(self.reference)).T @ rotation(np.asarray(gaze))
+        x, y, depth = turn @ rays.T
+        depth = np.where(depth > 0, depth, np.nan)
+        return np.column_stack((x / depth, y / depth)) * self.focal + self.centre
+
+    def project(self, position: Array, eye: Array) -> Array:
+        """Where a point of the world (3,) [m], seen from `eye` [m], lies in visual space (2,) [px]."""
+        right, down, forward = rotation(np.asarray(self.reference)).T @ (position - eye)
+        return np.asarray(np.array((right, down)) / forward * self.focal + self.centre)

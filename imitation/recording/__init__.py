@@ -1,0 +1,1 @@
+"""Recordings: written live as MCAP, derived for the Rerun viewer."""

@@ -1,0 +1,204 @@
+"""The robot: an arm and a camera joined behind one `step`, with the guard inside."""
+
+from dataclasses import dataclass, field
+from typing import Protocol
+
+import numpy as np
+
+from imitation.arrays import Array, Image
+from imitation.guard import Guard
+
+SECOND = 1_000_000_000  # [ns]
+
+
+@dataclass(frozen=True)
+class Body:
+    """What an arm is: joints, limits and what its motors can do."""
+
+    name: str
+    joint_names: tuple[str, ...]
+    lower: Array  # joint limits, (n_joints,) [rad]
+    upper: Array
+    speed: Array  # largest speed of each joint, (n_joints,) [rad/s]
+    acceleration: Array  # largest acceleration of each joint, (n_joints,) [rad/s^2]
+
+
+@dataclass(frozen=True)
+class Observation:
+    """What the robot senses at one control step."""
+
+    time_ns: int  # when the joints were read, since the start of the run
+    posture: Array  # proprioception x, (n_joints,) [rad]
+    velocity: Array  # (n_joints,) [rad/s]
+    gaze: Array  # pan, tilt of the neck, (2,) [rad]
+    frame: Image  # newest frame, RGB, (height, width, 3)
+    frame_time_ns: int  # when it was captured
+    frame_gaze: Array  # gaze it was captured with, (2,) [rad]
+    place_noise: Array  # added to the places seen in it, (2,) [px]; 0 for a real camera
+    opening: float  # of the gripper, 0 closed .. 1 open
+    proximity: float  # distance to what is between the fingers [m]; inf: nothing
+    touching: bool  # both fingers touch something
+
+    @property
+    def time(self) -> float:
+        """When the joints were read, since the start of the run [s]."""
+        return self.time_ns / SECOND
+
+
+@dataclass(frozen=True)
+class Command:
+    """What a stage wants for one control period."""
+
+    velocity: Array  # (n_joints,) [rad/s]; all 0: hold the posture
+    grip: float | None = None  # wanted opening 0..1; None: as it is
+    gaze: Array | None = None  # wanted pan, tilt [rad]; None: as it is
+
+
+@dataclass(frozen=True)
+class Applied:
+    """What became of a command."""
+
+    requested: Array  # velocity the stage asked for, (n_joints,) [rad/s]
+    limited: Array  # what the guard left of it
+    sent: Array  # what the arm made of that
+    reasons: tuple[str, ...]  # why the guard changed it; empty: it did not
+    time_ns: int  # when it was sent
+
+
+@dataclass(frozen=True)
+class Truth:
+    """What only a simulation knows; no stage may ask for it."""
+
+    time_ns: int
+    hand_px: Array  # true centre of the mark on the hand in visual space, (2,) [px]
+    hand_m: Array  # the same in the world, (3,) [m]
+    object_pose: Array | None = None  # position [m] and quaternion x, y, z, w, (7,)
+
+
+@dataclass(frozen=True)
+class JointReading:
+    """What an arm tells of itself."""
+
+    posture: Array  # (n_joints,) [rad]
+    velocity: Array  # (n_joints,) [rad/s]
+    opening: float = 1.0
+    proximity: float = float("inf")
+    touching: bool = False
+
+
+@dataclass(frozen=True)
+class Shot:
+    """One frame with when and where it was taken."""
+
+    frame: Image
+    time_ns: int
+    gaze: Array  # pan, tilt [rad]
+    place_noise: Array = field(default_factory=lambda: np.zeros(2))  # [px]
+
+
+class Arm(Protocol):
+    """An arm with a gripper that obeys joint velocities."""
+
+    body: Body
+
+    def reset(self, posture: Array) -> None:
+        """Be at rest at `posture` [rad]."""
+
+    def move(self, velocity: Array, grip: float | None, period: float) -> Array:
+        """Move with `velocity` [rad/s] for `period` [s]; returns the velocity that was sent."""
+
+    def read(self) -> JointReading:
+        """Sense the joints and the gripper."""
+
+    def truth(self) -> tuple[Array, Array | None] | None:
+        """True position of the hand's mark and pose of the object; None on a real arm."""
+
+    def close(self) -> None:
+        """Stop the arm and release it; harmless when repeated."""
+
+
+class Camera(Protocol):
+    """A camera on a neck."""
+
+    def look(self, time_ns: int, gaze: Array | None) -> Shot:
+        """Turn to `gaze` (as it is when None) and return the newest frame."""
+
+    def reset(self, time_ns: int) -> None:
+        """Forget frames of the episode before."""
+
+    def locate(self, position: Array) -> Array:
+        """Where a point of the world [m] lies in visual space, (2,) [px]."""
+
+    def close(self) -> None:
+        """Release the camera; harmless when repeated."""
+
+
+class Robot:
+    """An arm watched by a camera. The only way to move it is through the guard."""
+
+    def __init__(self, arm: Arm, camera: Camera, guard: Guard, home: Array, period_ns: int) -> None:
+        self.arm, self.camera, self.guard, self.home = arm, camera, guard, home
+        self.period_ns = period_ns
+        self._time_ns = -period_ns  # the first reset is the run's time 0
+        self._velocity = np.zeros(len(home))
+        self._truths: list[Truth] = []
+
+    @property
+    def body(self) -> Body:
+        """The arm's joints and limits."""
+        return self.arm.body
+
+    @property
+    def period(self) -> float:
+        """Control period [s]."""
+        return self.period_ns / SECOND
+
+    def reset(self, posture: Array | None = None) -> Observation:
+        """Be at rest at `posture` [rad] (home when None), at the next tick of the run's clock."""
+        start = self.home if posture is None else posture
+        self.arm.reset(self.guard.posture_within_limits(start))
+        self._velocity = np.zeros(len(self.home))
+        self._time_ns += self.period_ns
+        self.camera.reset(self._time_ns)
+        return self._sense(None)
+
+    def step(self, command: Command) -> tuple[Observation, Applied]:
+        """Obey `command` within the guard's limits for one control period, then sense."""
+        posture = self.arm.read().posture
+        limited, reasons = self.guard.limit(command.velocity, self._velocity, posture, self.period)
+        sent = self.arm.move(limited, command.grip, self.period)
+        applied = Applied(command.velocity, limited, sent, reasons, self._time_ns)
+        self._velocity = limited
+        self._time_ns += self.period_ns
+        return self._sense(command.gaze), applied
+
+    def truth(self) -> list[Truth]:
+        """What was true at each sensing since this was last asked; empty on a real robot."""
+        told, self._truths = self._truths, []
+        return told
+
+    def close(self) -> None:
+        """Stop the arm and release the devices; harmless when repeated."""
+        self.arm.close()
+        self.camera.close()
+
+    def _sense(self, gaze: Array | None) -> Observation:
+        reading = self.arm.read()
+        shot = self.camera.look(self._time_ns, gaze)
+        truth = self.arm.truth()
+        if truth is not None:
+            mark, thing = truth
+            self._truths.append(Truth(self._time_ns, self.camera.locate(mark), mark, thing))
+        return Observation(
+            time_ns=self._time_ns,
+            posture=reading.posture,
+            velocity=reading.velocity,
+            gaze=shot.gaze,
+            frame=shot.frame,
+            frame_time_ns=shot.time_ns,
+            frame_gaze=shot.gaze,
+            place_noise=shot.place_noise,
+            opening=reading.opening,
+            proximity=reading.proximity,
+            touching=reading.touching,
+        )

@@ -1,0 +1,1 @@
+"""Bodies: arms, cameras, and what moves in front of them."""

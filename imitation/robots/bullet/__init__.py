@@ -1,0 +1,1 @@
+"""Arms and cameras in a PyBullet world."""

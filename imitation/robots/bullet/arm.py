@@ -1,0 +1,56 @@
+"""An arm in the PyBullet world, driven by joint velocities."""
+
+import numpy as np
+
+from imitation.arrays import Array
+from imitation.robot import Body, JointReading
+from imitation.robots.bullet.world import World
+
+
+class BulletArm:
+    """A simulated arm: motors that run at the commanded velocity and hold when it is 0.
+
+    Args:
+        world: Where the arm stands.
+        body: Its joints and limits.
+        stiffness: How fast the arm is pulled back to where its commands should have brought it
+            [1/s]; the motors of the engine give way to gravity without it.
+    """
+
+    def __init__(self, world: World, body: Body, stiffness: float) -> None:
+        self.world, self.body, self._stiffness = world, body, stiffness
+        self._expected = np.zeros(len(body.lower))  # where the commands lead [rad]
+
+    def reset(self, posture: Array) -> None:
+        """Be at rest at `posture` [rad] in a rebuilt world."""
+        self._expected = posture.copy()
+        self.world.rebuild(posture, opening=1.0)
+        self.world.hold(posture)
+
+    def move(self, velocity: Array, grip: float | None, period: float) -> Array:
+        """Move with `velocity` [rad/s] for `period` [s]."""
+        substeps = round(period * self.world.rate)
+        if not velocity.any():
+            self.world.hold(self._expected)
+        else:
+            posture, _ = self.world.joint_state()
+            self.world.drive(velocity + self._stiffness * (self._expected - posture))
+        if grip is not None:
+            self.world.grip(grip)
+        self.world.advance(substeps)
+        self._expected = self._expected + velocity * period
+        self.world.carry_mark()
+        return velocity
+
+    def read(self) -> JointReading:
+        """Sense the joints and the gripper."""
+        posture, velocity = self.world.joint_state()
+        return JointReading(posture, velocity, self.world.opening())
+
+    def truth(self) -> tuple[Array, Array | None]:
+        """True position of the hand's mark [m]."""
+        return self.world.mark_position(), None
+
+    def close(self) -> None:
+        """End the world."""
+        self.world.close()

@@ -1,0 +1,255 @@
+"""A PyBullet world: table, arm and what stands before it. The one module that knows the engine."""
+
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pybullet
+import pybullet_data
+
+from imitation.arrays import Array, Image
+
+WHITE = 0xFFFFFFFF  # what TinyRenderer leaves where nothing is drawn
+FLAT_LIGHT = {
+    "shadow": 0,
+    "lightAmbientCoeff": 1.0,
+    "lightDiffuseCoeff": 0.0,
+    "lightSpecularCoeff": 0.0,
+    "renderer": pybullet.ER_TINY_RENDERER,
+    "flags": pybullet.ER_NO_SEGMENTATION_MASK,
+}
+
+
+def find_urdf(name: str) -> Path:
+    """A URDF by its name: one of ours, one of pybullet_data's, or a path."""
+    ours, theirs = Path(__file__).parent / name, Path(pybullet_data.getDataPath()) / name
+    for path in (Path(name), ours, theirs):
+        if path.is_file():
+            return path
+    raise ValueError(f"no URDF file {name}: give a path, or a name below pybullet_data")
+
+
+@dataclass(frozen=True)
+class Table:
+    """A box to work on."""
+
+    size: tuple[float, float, float]  # x, y, z [m]
+    centre: tuple[float, float, float]  # of the box [m]
+    colour: tuple[float, float, float, float]  # red, green, blue, opacity [0..1]
+    friction: float  # lateral, without unit
+
+    @property
+    def height(self) -> float:
+        """Height of the table's top [m]."""
+        return self.centre[2] + self.size[2] / 2
+
+
+@dataclass(frozen=True)
+class Mark:
+    """A coloured sphere on the hand that the camera sees."""
+
+    link: str  # link of the URDF that carries it
+    offset: tuple[float, float, float]  # its centre in that link [m]
+    radius: float  # [m]
+    colour: tuple[float, float, float, float]  # red, green, blue, opacity [0..1]
+
+
+@dataclass
+class World:
+    """One arm over one table in an engine of its own.
+
+    Args:
+        urdf: Name or path of the arm's URDF.
+        joints: Names of the arm's joints, in the order of a posture.
+        fingers: Names of the finger joints, closing with the negative sense; may be empty.
+        mark: What the camera sees of the hand.
+        table: What the arm works on.
+        base: Where the arm stands (3,) [m].
+        rate: Physics steps per second [Hz].
+        iterations: Of the contact solver, for each physics step.
+        force: Largest motor torque of each joint [Nm].
+        finger_force: Largest torque of a finger [Nm].
+    """
+
+    urdf: str
+    joints: tuple[str, ...]
+    fingers: tuple[str, ...]
+    mark: Mark
+    table: Table
+    base: tuple[float, float, float]
+    rate: int
+    iterations: int
+    force: tuple[float, ...]
+    finger_force: float
+    _links: dict[str, int] = field(default_factory=dict, init=False)
+
+    def __post_init__(self) -> None:
+        if not pybullet.isNumpyEnabled():
+            raise RuntimeError(
+                "this PyBullet was built without numpy; install its wheel for Python 3.11"
+            )
+        self.path = find_urdf(self.urdf)
+        self._client = pybullet.connect(pybullet.DIRECT)
+        self._backdrops: dict[bytes, Image] = {}
+
+    def rebuild(self, posture: Array, opening: float) -> None:
+        """A new world with the arm at rest at `posture` [rad], the same down to the last bit."""
+        call: dict[str, Any] = {"physicsClientId": self._client}
+        pybullet.resetSimulation(**call)
+        pybullet.setGravity(0, 0, -9.81, **call)
+        pybullet.setPhysicsEngineParameter(
+            fixedTimeStep=1 / self.rate,
+            numSolverIterations=self.iterations,
+            deterministicOverlappingPairs=1,
+            **call,
+        )
+        self._add_table(call)
+        self._arm = pybullet.loadURDF(str(self.path), self.base, useFixedBase=True, **call)
+        count = pybullet.getNumJoints(self._arm, **call)
+        info = [pybullet.getJointInfo(self._arm, joint, **call) for joint in range(count)]
+        by_name = {row[1].decode(): joint for joint, row in enumerate(info)}
+        self._links = {row[12].decode(): joint for joint, row in enumerate(info)}
+        self._joints = [by_name[name] for name in self.joints]
+        self._fingers = [by_name[name] for name in self.fingers]
+        self._finger_range = [(info[j][8], info[j][9]) for j in self._fingers]
+        for joint, angle in zip(self._joints, posture, strict=True):
+            pybullet.resetJointState(self._arm, joint, angle, **call)
+        for joint, (closed, opened) in zip(self._fingers, self._finger_range, strict=True):
+            angle = closed + opening * (opened - closed)
+            pybullet.resetJointState(self._arm, joint, angle, **call)
+        self._add_mark(call)
+        self.grip(opening)
+
+    def drive(self, velocity: Array) -> None:
+        """Let the joint motors run with `velocity` [rad/s]."""
+        pybullet.setJointMotorControlArray(
+            self._arm,
+            self._joints,
+            pybullet.VELOCITY_CONTROL,
+            targetVelocities=velocity.tolist(),
+            forces=self.force,
+            physicsClientId=self._client,
+        )
+
+    def hold(self, posture: Array) -> None:
+        """Let the joint motors hold `posture` [rad]."""
+        pybullet.setJointMotorControlArray(
+            self._arm,
+            self._joints,
+            pybullet.POSITION_CONTROL,
+            targetPositions=posture.tolist(),
+            forces=self.force,
+            physicsClientId=self._client,
+        )
+
+    def grip(self, opening: float) -> None:
+        """Let the fingers move to `opening` (0 closed .. 1 open)."""
+        for joint, (closed, opened) in zip(self._fingers, self._finger_range, strict=True):
+            pybullet.setJointMotorControl2(
+                self._arm,
+                joint,
+                pybullet.POSITION_CONTROL,
+                targetPosition=closed + opening * (opened - closed),
+                force=self.finger_force,
+                maxVelocity=0.6,
+                physicsClientId=self._client,
+            )
+
+    def advance(self, substeps: int) -> None:
+        """Let `substeps` physics steps pass."""
+        for _ in range(substeps):
+            pybullet.stepSimulation(physicsClientId=self._client)
+
+    def joint_state(self) -> tuple[Array, Array]:
+        """Posture [rad] and velocity [rad/s] of the arm's joints."""
+        states = pybullet.getJointStates(self._arm, self._joints, physicsClientId=self._client)
+        return np.array([row[0] for row in states]), np.array([row[1] for row in states])
+
+    def opening(self) -> float:
+        """How far the gripper is open, 0 closed .. 1 open."""
+        if not self._fingers:
+            return 1.0
+        angle = pybullet.getJointState(self._arm, self._fingers[0], physicsClientId=self._client)[0]
+        closed, opened = self._finger_range[0]
+        return float((angle - closed) / (opened - closed))
+
+    def mark_position(self) -> Array:
+        """Centre of the mark on the hand, (3,) [m]."""
+        state = pybullet.getLinkState(
+            self._arm,
+            self._links[self.mark.link],
+            computeForwardKinematics=1,
+            physicsClientId=self._client,
+        )
+        position, _ = pybullet.multiplyTransforms(
+            state[4], state[5], self.mark.offset, (0, 0, 0, 1)
+        )
+        return np.array(position)
+
+    def render(self, view: Array, projection: Array, size: tuple[int, int]) -> Image:
+        """A picture of the world, RGB, (height, width, 3).
+
+        The table fills the view and would take most of the renderer's time: it is drawn once
+        for each view and laid behind everything else.
+        """
+        key = view.tobytes() + projection.tobytes()
+        if key not in self._backdrops:
+            self._backdrops = {key: self._render_table(view, projection, size)}
+        picture = self._picture(self._client, view, projection, size)
+        drawn = picture.view(np.uint32)[..., 0] != WHITE
+        return np.where(drawn[..., None], picture[..., :3], self._backdrops[key])
+
+    def close(self) -> None:
+        """End the engine; harmless when repeated."""
+        if pybullet.isConnected(self._client):
+            pybullet.disconnect(self._client)
+
+    def _picture(self, client: int, view: Array, projection: Array, size: tuple[int, int]) -> Image:
+        width, height = size
+        _, _, pixels, *_ = pybullet.getCameraImage(
+            width, height, view.tolist(), projection.tolist(), physicsClientId=client, **FLAT_LIGHT
+        )
+        return np.asarray(pixels, dtype=np.uint8).reshape(height, width, 4)
+
+    def _render_table(self, view: Array, projection: Array, size: tuple[int, int]) -> Image:
+        client = pybullet.connect(pybullet.DIRECT)
+        half = [side / 2 for side in self.table.size]
+        shape = pybullet.createVisualShape(
+            pybullet.GEOM_BOX,
+            halfExtents=half,
+            rgbaColor=self.table.colour,
+            physicsClientId=client,
+        )
+        pybullet.createMultiBody(
+            0,
+            baseVisualShapeIndex=shape,
+            basePosition=self.table.centre,
+            physicsClientId=client,
+        )
+        picture = self._picture(client, view, projection, size)
+        pybullet.disconnect(client)
+        return picture[..., :3].copy()
+
+    def _add_table(self, call: dict[str, Any]) -> None:
+        half = [side / 2 for side in self.table.size]
+        shape = pybullet.createCollisionShape(pybullet.GEOM_BOX, halfExtents=half, **call)
+        # Without a visual shape PyBullet would draw the collision shape.
+        speck = pybullet.createVisualShape(pybullet.GEOM_SPHERE, radius=0.001, **call)
+        table = pybullet.createMultiBody(0, shape, speck, self.table.centre, **call)
+        pybullet.changeDynamics(
+            table, -1, lateralFriction=self.table.friction, restitution=0.0, **call
+        )
+
+    def _add_mark(self, call: dict[str, Any]) -> None:
+        shape = pybullet.createVisualShape(
+            pybullet.GEOM_SPHERE, radius=self.mark.radius, rgbaColor=self.mark.colour, **call
+        )
+        self._mark = pybullet.createMultiBody(0.0, -1, shape, (0, 0, 0), **call)
+        self.carry_mark()
+
+    def carry_mark(self) -> None:
+        """Put the mark where the hand is."""
+        pybullet.resetBasePositionAndOrientation(
+            self._mark, self.mark_position().tolist(), (0, 0, 0, 1), physicsClientId=self._client
+        )

@@ -1,0 +1,153 @@
+"""Forward kinematics of an arm read from its URDF.
+
+Only the guard and the simulated bodies use it: nothing that learns knows the arm's geometry.
+"""
+
+import xml.etree.ElementTree as ElementTree
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from imitation.arrays import Array
+
+
+def rotation_about(axis: Array, angle: float) -> Array:
+    """Rotation by `angle` [rad] about a unit `axis` (3,), (3, 3)."""
+    x, y, z = axis
+    cross = np.array(((0.0, -z, y), (z, 0.0, -x), (-y, x, 0.0)))
+    return np.asarray(np.eye(3) + np.sin(angle) * cross + (1 - np.cos(angle)) * cross @ cross)
+
+
+def rotation_of_rpy(roll: float, pitch: float, yaw: float) -> Array:
+    """Rotation of URDF's fixed-axis roll, pitch, yaw [rad], (3, 3)."""
+    x, y, z = np.eye(3)
+    return rotation_about(z, yaw) @ rotation_about(y, pitch) @ rotation_about(x, roll)
+
+
+@dataclass(frozen=True)
+class Joint:
+    """One joint of a URDF."""
+
+    name: str
+    parent: str
+    child: str
+    turn: Array  # fixed rotation from the parent link, (3, 3)
+    offset: Array  # fixed offset from the parent link, (3,) [m]
+    cross: Array  # cross-product matrix of the axis, (3, 3); 0 for a fixed joint
+    lower: float  # [rad]
+    upper: float  # [rad]
+    speed: float  # [rad/s]
+
+
+def _numbers(text: str | None, default: str) -> Array:
+    return np.array([float(word) for word in (text or default).split()])
+
+
+def read_joints(urdf: Path) -> dict[str, Joint]:
+    """Joints of a URDF file by the name of their child link."""
+    joints = {}
+    for node in ElementTree.parse(urdf).getroot().iterfind("joint"):
+        origin, axis, limit = node.find("origin"), node.find("axis"), node.find("limit")
+        at = {} if origin is None else origin.attrib
+        bounds = {} if limit is None else limit.attrib
+        x, y, z = _numbers(None if axis is None else axis.get("xyz"), "1 0 0")
+        cross = np.array(((0.0, -z, y), (z, 0.0, -x), (-y, x, 0.0)))
+        parent, child = node.find("parent"), node.find("child")
+        if parent is None or child is None:
+            raise ValueError(f"{urdf.name}: joint {node.get('name')} lacks parent or child")
+        joints[child.attrib["link"]] = Joint(
+            name=node.attrib["name"],
+            parent=parent.attrib["link"],
+            child=child.attrib["link"],
+            turn=rotation_of_rpy(*_numbers(at.get("rpy"), "0 0 0")),
+            offset=_numbers(at.get("xyz"), "0 0 0"),
+            cross=cross if node.get("type") in ("revolute", "continuous") else np.zeros((3, 3)),
+            lower=float(bounds.get("lower", 0.0)),
+            upper=float(bounds.get("upper", 0.0)),
+            speed=float(bounds.get("velocity", 0.0)),
+        )
+    return joints
+
+
+class KinematicChain:
+    """Where points of an arm's links are, for a posture of its moving joints.
+
+    Args:
+        urdf: The arm's URDF file.
+        joint_names: The moving joints, in the order of the posture; all others stay at 0.
+        points: (link name, point in that link (3,) [m]) of each point to follow.
+        base: Where the URDF's root stands in the world, (3,) [m].
+    """
+
+    def __init__(
+        self,
+        urdf: Path,
+        joint_names: tuple[str, ...],
+        points: list[tuple[str, Array]],
+        base: Array,
+    ) -> None:
+        by_child = read_joints(urdf)
+        by_name = {joint.name: joint for joint in by_child.values()}
+        unknown = [name for name in joint_names if name not in by_name]
+        if unknown:
+            raise ValueError(f"{urdf.name} has no joint {unknown[0]}; it has {sorted(by_name)}")
+        self.limits = [by_name[name] for name in joint_names]
+        self._base = base
+        self._order: list[tuple[Joint, int]] = []  # joint, its place in the posture or -1
+        slot = {name: place for place, name in enumerate(joint_names)}
+        reached: set[str] = set()
+        for link, _ in points:
+            path = []
+            while link in by_child and link not in reached:
+                path.append(by_child[link])
+                reached.add(link)
+                link = by_child[link].parent
+            self._order += [(joint, slot.get(joint.name, -1)) for joint in reversed(path)]
+        self._points = points
+
+    def positions(self, posture: Array) -> Array:
+        """The points at `posture` (n_joints,) [rad], (n_points, 3) [m]."""
+        eye = np.eye(3)
+        frames: dict[str, tuple[Array, Array]] = {}
+        sines, versines = np.sin(posture), 1 - np.cos(posture)
+        for joint, place in self._order:
+            turn, offset = frames.get(joint.parent, (eye, self._base))
+            offset = offset + turn @ joint.offset
+            turn = turn @ joint.turn
+            if place >= 0:
+                cross = joint.cross
+                turn = turn @ (eye + sines[place] * cross + versines[place] * (cross @ cross))
+            frames[joint.child] = (turn, offset)
+        root = (eye, self._base)
+        placed = ((frames.get(link, root), point) for link, point in self._points)
+        return np.array([offset + turn @ point for (turn, offset), point in placed])
+
+
+@dataclass(frozen=True)
+class TableAndBase:
+    """How near the arm is to the table under it and to its own base.
+
+    Args:
+        chain: Follows the arm's guarded points.
+        radii: Size of the arm around each point, (n_points,) [m].
+        table_height: Height of the table's top [m].
+        base: Centre of the arm's base on the ground, x and y (2,) [m].
+        base_radius: Radius of the cylinder around the base [m].
+        base_height: Its height [m].
+    """
+
+    chain: KinematicChain
+    radii: Array
+    table_height: float
+    base: Array
+    base_radius: float
+    base_height: float
+
+    def clearance(self, posture: Array) -> float:
+        """Smallest distance of a guarded point's surface to table or base [m]."""
+        points = self.chain.positions(posture)
+        above = points[:, 2] - self.table_height - self.radii
+        beside = np.hypot(*(points[:, :2] - self.base).T) - self.base_radius - self.radii
+        over = points[:, 2] - self.base_height - self.radii
+        return float(min(above.min(), np.maximum(beside, over).min()))

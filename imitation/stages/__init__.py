@@ -1,0 +1,1 @@
+"""What runs on a robot: generators of samples."""

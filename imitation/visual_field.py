@@ -1,0 +1,91 @@
+"""The visual field: a grid of visual neurons over the image, each looking at one area."""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from imitation.arrays import Array, Mask
+
+Area = tuple[int, int]  # row, column
+
+
+@dataclass(frozen=True)
+class VisualField:
+    """Areas of equal size on the right of the image, and one more column on its left.
+
+    The right ones are within the arm's reach and are learned; the left column is seen only.
+    Areas are counted [row, column] over the whole grid, so column 0 is the left one.
+    """
+
+    name: str
+    size: tuple[int, int]  # width, height of the visual space [px]
+    rows: int
+    columns: int  # columns within reach, without the left one
+    left: float  # width of the left column [px]
+
+    @cached_property
+    def edges(self) -> tuple[Array, Array]:
+        """Borders of the columns, then of the rows [px]."""
+        width, height = self.size
+        right = np.linspace(self.left, width, self.columns + 1)
+        return np.concatenate(((0.0,), right)), np.linspace(0.0, height, self.rows + 1)
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Rows and columns of the whole grid, the left column included."""
+        return self.rows, self.columns + 1
+
+    @cached_property
+    def centres(self) -> Array:
+        """Centre of each area, (rows, columns, 2) as x, y [px]."""
+        x_edges, y_edges = self.edges
+        x, y = (x_edges[1:] + x_edges[:-1]) / 2, (y_edges[1:] + y_edges[:-1]) / 2
+        return np.stack(np.meshgrid(x, y), axis=-1)
+
+    @property
+    def side(self) -> float:
+        """Width of an area within reach [px]."""
+        return (self.size[0] - self.left) / self.columns
+
+    @cached_property
+    def reachable(self) -> Mask:
+        """Which areas the arm can learn, (rows, columns)."""
+        within = np.ones(self.shape, dtype=bool)
+        within[:, 0] = False
+        return within
+
+    def activity(self, places: Array) -> Array:
+        """Visual input I: each area's share of the hand's pixels (n, 2) [px]; 0 when unseen."""
+        if not len(places):
+            return np.zeros(self.shape)
+        x_edges, y_edges = self.edges
+        columns = np.searchsorted(x_edges, places[:, 0], side="right") - 1
+        rows = np.searchsorted(y_edges, places[:, 1], side="right") - 1
+        inside = (rows >= 0) & (rows < self.rows) & (columns >= 0) & (columns <= self.columns)
+        cells = rows[inside] * self.shape[1] + columns[inside]
+        counts = np.bincount(cells, minlength=self.rows * self.shape[1])
+        return np.asarray(counts.reshape(self.shape) / len(places))
+
+    def area_of(self, place: Array) -> Area | None:
+        """The area that `place` (2,) [px] lies in; None outside the visual space."""
+        activity = self.activity(place[None])
+        if not activity.any():
+            return None
+        row, column = np.unravel_index(activity.argmax(), self.shape)
+        return int(row), int(column)
+
+    def within(self, place: Array, radius: float) -> Array:
+        """Selection V: 1 for every area whose centre is nearer than `radius` [px] to `place`."""
+        return (np.linalg.norm(self.centres - place, axis=-1) < radius).astype(float)
+
+
+def winner_take_all(visual_input: Array) -> Array:
+    """Selection V by hard competition: 1 for the most active area, 0 elsewhere (section III).
+
+    All 0 when nothing is seen; among equals the first one wins.
+    """
+    selection = np.zeros_like(visual_input)
+    if visual_input.max() > 0:
+        selection.flat[visual_input.argmax()] = 1.0
+    return selection
