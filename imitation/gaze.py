@@ -45,6 +45,10 @@ class VisualSpace:
         return np.column_stack((x / depth, y / depth)) * self.focal + self.centre
 
     def project(self, position: Array, eye: Array) -> Array:
-        """Where a point of the world (3,) [m], seen from `eye` [m], lies in visual space (2,) [px]."""
+        """Where a world point (3,) [m], seen from `eye` [m], lies in visual space (2,) [px].
+
+        A point behind the camera becomes nan.
+        """
         right, down, forward = rotation(np.asarray(self.reference)).T @ (position - eye)
-        return np.asarray(np.array((right, down)) / forward * self.focal + self.centre)
+        depth = forward if forward > 0 else np.nan
+        return np.array((right / depth, down / depth)) * self.focal + self.centre
