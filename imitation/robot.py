@@ -38,6 +38,7 @@ class Observation:
     opening: float  # of the gripper, 0 closed .. 1 open
     proximity: float  # distance to what is between the fingers [m]; inf: nothing
     touching: bool  # both fingers touch something
+    jpeg: bytes | None = None  # what `frame` was decoded from; None: a simulated camera
 
     @property
     def time(self) -> float:
@@ -94,6 +95,7 @@ class Shot:
     time_ns: int
     gaze: Array  # pan, tilt [rad]
     place_noise: Array = field(default_factory=lambda: np.zeros(2))  # [px]
+    jpeg: bytes | None = None  # what `frame` was decoded from; None: a simulated camera
 
 
 class Arm(Protocol):
@@ -201,4 +203,5 @@ class Robot:
             opening=reading.opening,
             proximity=reading.proximity,
             touching=reading.touching,
+            jpeg=shot.jpeg,
         )

@@ -1,0 +1,184 @@
+"""What one control step says in a recording: its messages, in order, with their topics."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from imitation.arrays import Array
+from imitation.recording import messages
+from imitation.recording.messages import stamp
+from imitation.robot import Body, Observation, Truth
+from imitation.sample import Decision, Event, Sample
+from imitation.visual_field import VisualField
+
+VISUAL_SPACE = "visual_space"  # frame of every place [px]
+WORLD = "world"  # frame of every pose [m]
+GRID = ("rows", "columns")
+
+
+@dataclass(frozen=True)
+class Topic:
+    """What a channel of the recording holds."""
+
+    type: str  # ROS 2 message type
+    names: tuple[str, ...] = ()  # of an array's entries along its last dimension
+
+
+@dataclass(frozen=True)
+class Message:
+    """One message of the recording."""
+
+    topic: str
+    time_ns: int  # since the start of the run
+    data: bytes  # CDR
+
+
+def topics(body: Body, field: VisualField, jpeg: bool) -> dict[str, Topic]:
+    """Every topic a recording may hold, by name.
+
+    Args:
+        body: The arm.
+        field: The visual field.
+        jpeg: Whether the frames come as JPEG, from a real camera.
+    """
+    joints = body.joint_names
+    areas = tuple(f"area {row},{column}" for row, column in np.ndindex(*field.shape))
+    return {
+        "/camera/image": Topic(messages.COMPRESSED_IMAGE if jpeg else messages.IMAGE),
+        "/camera/used": Topic(messages.HEADER),
+        "/joint_states": Topic(messages.JOINT_STATE, joints),
+        "/gaze": Topic(messages.FLOATS, ("pan", "tilt")),
+        "/gripper": Topic(messages.FLOATS, ("opening", "proximity", "touching")),
+        "/hand": Topic(messages.POINT),
+        "/hand/noise": Topic(messages.POINT),
+        "/visual_input": Topic(messages.FLOATS, areas),
+        "/target": Topic(messages.POINT),
+        "/selection": Topic(messages.FLOATS, areas),
+        "/attractors/index": Topic(messages.INTEGERS, ("row", "column", "neuron")),
+        "/attractors/activation": Topic(messages.FLOATS),
+        "/attractors/posture": Topic(messages.FLOATS, joints),
+        "/attractors/pull": Topic(messages.FLOATS, joints),
+        "/dynamics": Topic(messages.FLOATS, ("gain", "noise level", "distance")),
+        "/dynamics/noise": Topic(messages.FLOATS, joints),
+        "/joint_command/requested": Topic(messages.JOINT_STATE, joints),
+        "/joint_command/limited": Topic(messages.JOINT_STATE, joints),
+        "/joint_command/sent": Topic(messages.JOINT_STATE, joints),
+        "/events": Topic(messages.LOG),
+        "/truth/hand": Topic(messages.POINT),
+        "/truth/object": Topic(messages.POSE),
+    }
+
+
+class StepMessages:
+    """Makes the messages of one step after the other; a frame seen twice is told once.
+
+    Args:
+        body: The arm; its joint names go into every JointState.
+    """
+
+    def __init__(self, body: Body) -> None:
+        self._joints = body.joint_names
+        self._frame_time_ns: int | None = None
+        self._reasons: tuple[str, ...] = ()
+
+    def of(self, sample: Sample, truths: Sequence[Truth]) -> Iterator[Message]:
+        """The step's messages: senses, decision, what was applied, events, truth."""
+        yield from self._senses(sample)
+        yield from self._decision(sample.seen.time_ns, sample.decision)
+        yield from self._applied(sample)
+        for event in sample.events:
+            yield _event(sample.seen.time_ns, event)
+        for truth in truths:
+            yield from _truth(truth)
+
+    def _senses(self, sample: Sample) -> Iterator[Message]:
+        seen, percept, now = sample.seen, sample.percept, sample.seen.time_ns
+        captured = stamp(seen.frame_time_ns)
+        if seen.frame_time_ns != self._frame_time_ns:
+            self._frame_time_ns = seen.frame_time_ns
+            yield Message("/camera/image", seen.frame_time_ns, _picture(seen))
+        yield Message("/camera/used", now, messages.header_form("camera").fill(captured))
+        joints = messages.joint_form(self._joints)
+        state = joints.fill(stamp(now), _doubles(seen.posture), _doubles(seen.velocity))
+        yield Message("/joint_states", now, state)
+        yield Message("/gaze", now, _named(seen.gaze, "pan, tilt"))
+        gripper = np.array((seen.opening, seen.proximity, seen.touching))
+        yield Message("/gripper", now, _named(gripper, "opening, proximity, touching"))
+        if seen.place_noise.any():
+            yield Message("/hand/noise", now, _place(seen.frame_time_ns, seen.place_noise))
+        if percept.hand is not None:
+            yield Message("/hand", now, _place(percept.time_ns, percept.hand))
+        yield Message("/visual_input", now, _floats(percept.visual_input, GRID))
+
+    def _decision(self, now: int, decision: Decision) -> Iterator[Message]:
+        if decision.target is not None:
+            yield Message("/target", now, _place(now, decision.target))
+        yield Message("/selection", now, _floats(decision.selection, GRID))
+        index = messages.integers_form(decision.index.shape, ("attractors", "row, column, neuron"))
+        rows = np.ascontiguousarray(decision.index, dtype="<i4")
+        yield Message("/attractors/index", now, index.fill(rows.tobytes()))
+        activation = _floats(decision.activation, ("attractors",))
+        yield Message("/attractors/activation", now, activation)
+        if (rows < 0).any():
+            postures = _floats(decision.postures, ("attractors", "joints"))
+            yield Message("/attractors/posture", now, postures)
+        yield Message("/attractors/pull", now, _floats(decision.shares, ("attractors", "joints")))
+        dynamics = np.array((decision.gain, decision.noise_level, decision.distance))
+        yield Message("/dynamics", now, _named(dynamics, "gain, noise level, distance"))
+        yield Message("/dynamics/noise", now, _floats(decision.noise, ("joints",)))
+
+    def _applied(self, sample: Sample) -> Iterator[Message]:
+        applied, form = sample.applied, messages.velocity_form(self._joints)
+        when, sent = applied.time_ns, stamp(applied.time_ns)
+        for part in ("requested", "limited", "sent"):
+            velocity = _doubles(getattr(applied, part))
+            yield Message(f"/joint_command/{part}", when, form.fill(sent, velocity))
+        if applied.reasons != self._reasons:
+            self._reasons = applied.reasons
+            yield _event(when, _limitation(applied.reasons))
+
+
+def _limitation(reasons: tuple[str, ...]) -> Event:
+    if not reasons:
+        return Event("limited", "The guard no longer limits the velocity.", {"reasons": []})
+    why = ", ".join(reasons)
+    return Event("limited", f"The guard limits the velocity: {why}.", {"reasons": list(reasons)})
+
+
+def _event(time_ns: int, event: Event) -> Message:
+    data = messages.log(time_ns, event.kind, event.sentence, event.facts)
+    return Message("/events", time_ns, data)
+
+
+def _truth(truth: Truth) -> Iterator[Message]:
+    yield Message("/truth/hand", truth.time_ns, _place(truth.time_ns, truth.hand_px))
+    if truth.object_pose is not None:
+        pose = messages.pose_form(WORLD).fill(stamp(truth.time_ns), _doubles(truth.object_pose))
+        yield Message("/truth/object", truth.time_ns, pose)
+
+
+def _picture(seen: Observation) -> bytes:
+    if seen.jpeg is not None:
+        return messages.compressed_image(seen.frame_time_ns, seen.jpeg)
+    frame = np.ascontiguousarray(seen.frame)
+    height, width, channels = frame.shape
+    form = messages.image_form((height, width, channels))
+    return form.fill(stamp(seen.frame_time_ns), frame.tobytes())
+
+
+def _place(time_ns: int, place: Array) -> bytes:
+    x_y_z = np.array((place[0], place[1], 0.0))
+    return messages.point_form(VISUAL_SPACE).fill(stamp(time_ns), x_y_z.tobytes())
+
+
+def _named(values: Array, label: str) -> bytes:
+    return messages.floats_form(values.shape, (label,)).fill(_doubles(values))
+
+
+def _floats(values: Array, labels: tuple[str, ...]) -> bytes:
+    return messages.floats_form(values.shape, labels).fill(_doubles(values))
+
+
+def _doubles(values: Array) -> bytes:
+    return np.ascontiguousarray(values, dtype="<f8").tobytes()
