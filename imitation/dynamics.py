@@ -38,7 +38,7 @@ def attraction(x: Array, attractors: Array, weights: Array, beta: float, power: 
 
 def uniform_noise(rng: np.random.Generator, joints: int, level: float) -> Array:
     """Noise term of eq. 1 as in the paper: uniform in [-level, level], anew at each step."""
-    return level * rng.uniform(-1.0, 1.0, joints)
+    return np.asarray(level * rng.uniform(-1.0, 1.0, joints))
 
 
 def diffusion_noise(rng: np.random.Generator, joints: int, sigma: float, h: float) -> Array:
@@ -46,7 +46,7 @@ def diffusion_noise(rng: np.random.Generator, joints: int, sigma: float, h: floa
 
     Its effect does not change with the step (Euler-Maruyama), unlike that of uniform noise.
     """
-    return sigma / np.sqrt(h) * rng.standard_normal(joints)
+    return np.asarray(sigma / np.sqrt(h) * rng.standard_normal(joints))
 
 
 @dataclass(frozen=True)
@@ -125,6 +125,20 @@ def reaching(
     return gain, noise_per_px * distance
 
 
+def fastest_stoppable(room: Array, acceleration: Array, period: float) -> Array:
+    """Largest speed (n_joints,) [rad/s] that, braked from the next period on, ends within `room`.
+
+    Args:
+        room: Distance left to each joint, (n_joints,) [rad], not below 0.
+        acceleration: What each joint can brake with, (n_joints,) [rad/s^2].
+        period: How long a velocity lasts before it can be changed [s].
+    """
+    step = acceleration * period
+    # Braking takes whole periods: n full steps of speed cover n (n + 1) / 2 of step * period.
+    periods = np.floor(np.sqrt(0.25 + 2 * room / (step * period)) - 0.5)
+    return np.asarray(step * periods / 2 + room / ((periods + 1) * period))
+
+
 def able_to_stop(velocity: Array, to_go: Array, acceleration: Array, period: float) -> Array:
     """`velocity` (n_joints,) [rad/s] slowed, along its line, so that no joint overshoots.
 
@@ -134,8 +148,6 @@ def able_to_stop(velocity: Array, to_go: Array, acceleration: Array, period: flo
         acceleration: What each joint can brake with, (n_joints,) [rad/s^2].
         period: How long a velocity lasts before it can be changed [s].
     """
-    # After one more period at this speed, braking at full strength ends where it should.
-    step = acceleration * period
-    allowed = step * (np.sqrt(0.25 + 2 * np.abs(to_go) / (step * period)) - 0.5)
+    allowed = fastest_stoppable(np.abs(to_go), acceleration, period)
     excess = np.max(np.abs(velocity) / np.maximum(allowed, 1e-12))
     return np.asarray(velocity / max(float(excess), 1.0))

@@ -6,6 +6,7 @@ from typing import Protocol
 import numpy as np
 
 from imitation.arrays import Array
+from imitation.dynamics import fastest_stoppable
 
 
 class Surroundings(Protocol):
@@ -86,13 +87,13 @@ class Guard:
         return np.clip(velocity, before - change, before + change)
 
     def _able_to_stop_at_limits(self, velocity: Array, posture: Array, period: float) -> Array:
-        step = self.acceleration * period
-
-        def allowed(room: Array) -> Array:
-            room = np.maximum(room - self.margin, 0.0)
-            return np.asarray(step * (np.sqrt(0.25 + 2 * room / (step * period)) - 0.5))
-
-        return np.clip(velocity, -allowed(posture - self.lower), allowed(self.upper - posture))
+        up = np.maximum(self.upper - posture - self.margin, 0.0)
+        down = np.maximum(posture - self.lower - self.margin, 0.0)
+        return np.clip(
+            velocity,
+            -fastest_stoppable(down, self.acceleration, period),
+            fastest_stoppable(up, self.acceleration, period),
+        )
 
     def _too_near(self, velocity: Array, posture: Array, period: float) -> bool:
         if self.surroundings is None:
