@@ -12,8 +12,11 @@ from imitation.dynamics import fastest_stoppable
 class Surroundings(Protocol):
     """Knows how near the arm would be to what it must not touch."""
 
-    def clearance(self, posture: Array) -> float:
-        """Smallest distance of the arm at `posture` [rad] to table and own body [m]."""
+    def clearance(self, postures: Array) -> Array:
+        """Smallest distance of the arm to table and own body (n,) [m], at `postures` (n, n_joints).
+
+        Postures are in radians.
+        """
 
 
 @dataclass(frozen=True)
@@ -62,10 +65,9 @@ class Guard:
             posture: Present posture, (n_joints,) [rad].
             period: Control period [s].
         """
+        if not (np.isfinite(wanted).all() and np.isfinite(posture).all()):
+            return self._ramped(np.zeros_like(before), before, period), ("not a number",)
         reasons: list[str] = []
-        if not np.isfinite(wanted).all():
-            wanted = np.zeros_like(before)
-            reasons.append("not a number")
         # All joints are slowed together, so that the arm keeps its direction.
         excess = float(np.max(np.abs(wanted) / self.speed))
         velocity = wanted / max(excess, 1.0)
@@ -98,8 +100,17 @@ class Guard:
     def _too_near(self, velocity: Array, posture: Array, period: float) -> bool:
         if self.surroundings is None:
             return False
-        # Where the arm stands when it brakes after this period.
-        braking = velocity * np.abs(velocity) / (2 * self.acceleration)
-        stop = np.clip(posture + velocity * period + braking, self.lower, self.upper)
-        after = self.surroundings.clearance(stop)
-        return after < self.least_clearance and after < self.surroundings.clearance(posture)
+        way = np.vstack((posture, self._way_to_rest(velocity, posture, period)))
+        now, *then = self.surroundings.clearance(way)
+        # From too near, the way out is open.
+        return bool(min(then) < min(self.least_clearance, now))
+
+    def _way_to_rest(self, velocity: Array, posture: Array, period: float) -> Array:
+        """Postures after this period and each one after it when braking follows, (n, n_joints).
+
+        Joints come to rest one after the other, so the way may lead nearer than its end.
+        """
+        step = self.acceleration * period
+        periods = np.arange(max(np.ceil(np.max(np.abs(velocity) / step)), 1))
+        speeds = np.maximum(np.abs(velocity) - periods[:, None] * step, 0.0)
+        return np.asarray(posture + np.cumsum(np.sign(velocity) * speeds, axis=0) * period)

@@ -107,21 +107,23 @@ class KinematicChain:
         self._points = points
 
     def positions(self, posture: Array) -> Array:
-        """The points at `posture` (n_joints,) [rad], (n_points, 3) [m]."""
-        eye = np.eye(3)
+        """The points at `posture` (..., n_joints) [rad], (..., n_points, 3) [m]."""
+        eye, base = np.eye(3), np.broadcast_to(self._base, (*posture.shape[:-1], 3))
         frames: dict[str, tuple[Array, Array]] = {}
-        sines, versines = np.sin(posture), 1 - np.cos(posture)
+        sines = np.sin(posture)[..., None, None]
+        versines = 1 - np.cos(posture)[..., None, None]
         for joint, place in self._order:
-            turn, offset = frames.get(joint.parent, (eye, self._base))
+            turn, offset = frames.get(joint.parent, (eye, base))
             offset = offset + turn @ joint.offset
             turn = turn @ joint.turn
             if place >= 0:
                 cross = joint.cross
-                turn = turn @ (eye + sines[place] * cross + versines[place] * (cross @ cross))
+                sine, versine = sines[..., place, :, :], versines[..., place, :, :]
+                turn = turn @ (eye + sine * cross + versine * (cross @ cross))
             frames[joint.child] = (turn, offset)
-        root = (eye, self._base)
+        root = (eye, base)
         placed = ((frames.get(link, root), point) for link, point in self._points)
-        return np.array([offset + turn @ point for (turn, offset), point in placed])
+        return np.stack([offset + turn @ point for (turn, offset), point in placed], axis=-2)
 
 
 @dataclass(frozen=True)
@@ -144,10 +146,15 @@ class TableAndBase:
     base_radius: float
     base_height: float
 
-    def clearance(self, posture: Array) -> float:
-        """Smallest distance of a guarded point's surface to table or base [m]."""
-        points = self.chain.positions(posture)
-        above = points[:, 2] - self.table_height - self.radii
-        beside = np.hypot(*(points[:, :2] - self.base).T) - self.base_radius - self.radii
-        over = points[:, 2] - self.base_height - self.radii
-        return float(min(above.min(), np.maximum(beside, over).min()))
+    def clearance(self, postures: Array) -> Array:
+        """Smallest distance of a guarded point's surface to table or base (n,) [m].
+
+        Args:
+            postures: (n, n_joints) [rad].
+        """
+        points = self.chain.positions(postures)
+        above = points[..., 2] - self.table_height - self.radii
+        away = np.linalg.norm(points[..., :2] - self.base, axis=-1)
+        beside = away - self.base_radius - self.radii
+        over = points[..., 2] - self.base_height - self.radii
+        return np.asarray(np.minimum(above, np.maximum(beside, over)).min(axis=-1))
