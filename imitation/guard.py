@@ -85,8 +85,9 @@ class Guard:
         return stopping, tuple(reasons)
 
     def _ramped(self, velocity: Array, before: Array, period: float) -> Array:
-        change = self.acceleration * period
-        return np.clip(velocity, before - change, before + change)
+        # All joints change together, so that a movement from rest keeps to its line.
+        change = np.abs(velocity - before) / (self.acceleration * period)
+        return np.asarray(before + (velocity - before) / max(float(change.max()), 1.0))
 
     def _able_to_stop_at_limits(self, velocity: Array, posture: Array, period: float) -> Array:
         up = np.maximum(self.upper - posture - self.margin, 0.0)

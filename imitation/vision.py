@@ -45,8 +45,10 @@ class ColourDetector:
         if low <= high:
             found = cv2.inRange(hsv, (low, *floor), (high, *ceiling))
         else:  # Red closes the hue circle, so it is both ends of OpenCV's 0..179.
-            found = cv2.inRange(hsv, (low, *floor), (HUES - 1, *ceiling))
-            found = found | cv2.inRange(hsv, (0, *floor), (high, *ceiling))
+            found = cv2.bitwise_or(
+                cv2.inRange(hsv, (low, *floor), (HUES - 1, *ceiling)),
+                cv2.inRange(hsv, (0, *floor), (high, *ceiling)),
+            )
         return np.asarray(found, dtype=bool)
 
     def hand_pixels(self, frame: Image) -> Array:

@@ -77,7 +77,8 @@ class VisualField:
 
     def within(self, place: Array, radius: float) -> Array:
         """Selection V: 1 for every area whose centre is nearer than `radius` [px] to `place`."""
-        return (np.linalg.norm(self.centres - place, axis=-1) < radius).astype(float)
+        near = np.linalg.norm(self.centres - place, axis=-1) < radius
+        return np.asarray(near, dtype=np.float64)
 
 
 def winner_take_all(visual_input: Array) -> Array:

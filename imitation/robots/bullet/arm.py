@@ -4,6 +4,7 @@ import numpy as np
 
 from imitation.arrays import Array
 from imitation.robot import Body, JointReading
+from imitation.robots.bullet.photograph import BulletScene
 from imitation.robots.bullet.world import World
 
 
@@ -19,6 +20,7 @@ class BulletArm:
 
     def __init__(self, world: World, body: Body, stiffness: float) -> None:
         self.world, self.body, self._stiffness = world, body, stiffness
+        self.scene = BulletScene(world)
         self._expected = np.zeros(len(body.lower))  # where the commands lead [rad]
 
     def reset(self, posture: Array) -> None:

@@ -1,0 +1,109 @@
+"""Makes robots, perception and maps out of a composed configuration."""
+
+import zlib
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from hydra.utils import get_method
+
+from imitation.arrays import Array
+from imitation.dynamics import Dynamics
+from imitation.gaze import VisualSpace
+from imitation.perception import Perception
+from imitation.robot import SECOND, Robot
+from imitation.robots.bodies import guard_of
+from imitation.visual_field import VisualField
+from imitation.visuo_motor_map import Learning, VisuoMotorMap
+
+Config = Mapping[str, Any]
+
+
+def generator(seed: int, purpose: str) -> np.random.Generator:
+    """Randomness for one purpose: another purpose does not shift it."""
+    return np.random.default_rng([seed, zlib.crc32(purpose.encode())])
+
+
+def _plain(node: Config, *without: str) -> dict[str, Any]:
+    return {key: value for key, value in node.items() if key not in without}
+
+
+def make(node: Config, **more: Any) -> Any:
+    """What a node's `_target_` builds from the node's other values and `more`.
+
+    Hydra's own `instantiate` would turn dataclasses among the arguments into configurations.
+    """
+    return get_method(node["_target_"])(**_plain(node, "_target_"), **more)
+
+
+@dataclass
+class Bench:
+    """The parts of an experiment, made when first asked for."""
+
+    cfg: Config  # composed, resolved, plain dicts and lists
+
+    @cached_property
+    def space(self) -> VisualSpace:
+        """The visual space of the body's camera, looking along its own gaze."""
+        camera = self.cfg["camera"]
+        width, height = camera["size"]
+        pan, tilt = camera["gaze"]
+        return VisualSpace(
+            size=(width, height),
+            focal=camera["focal_px"],
+            centre=(width / 2, height / 2),
+            reference=(pan, tilt),
+        )
+
+    @cached_property
+    def robot(self) -> Robot:
+        """The arm, its camera and the guard."""
+        node = self.cfg["robot"]
+        arm = make(node["arm"])
+        camera = make(
+            _plain(self.cfg["camera"], "size", "focal_px"),
+            arm=arm,
+            space=self.space,
+            rng=generator(self.cfg["seed"], "camera"),
+        )
+        shared = {"urdf": node["arm"]["urdf"], "base": node["arm"]["base"]}
+        guard = guard_of(arm.body, **shared, **node["guard"])
+        return Robot(arm, camera, guard, self.guided.mean(axis=0), self.period_ns)
+
+    @property
+    def period_ns(self) -> int:
+        """The control period [ns]."""
+        return round(self.cfg["period"] * SECOND)
+
+    @property
+    def guided(self) -> Array:
+        """Postures the experimenter guided the arm to, (n, n_joints) [rad]."""
+        return np.array(self.cfg["robot"]["guided"], dtype=float)
+
+    @cached_property
+    def dynamics(self) -> Dynamics:
+        """Eqs. 1 and 2 for this arm."""
+        body = self.robot.body
+        return Dynamics(lower=body.lower, upper=body.upper, **self.cfg["dynamics"])
+
+    @cached_property
+    def field(self) -> VisualField:
+        """The visual field that `field=` names."""
+        return VisualField(size=self.space.size, **self.cfg["field"])
+
+    def perception(self, field: VisualField) -> Perception:
+        """Sees the hand in `field`."""
+        node = _plain(self.cfg["vision"])
+        for key in ("hue", "saturation", "value"):
+            if key in node:
+                node[key] = tuple(node[key])
+        return Perception(make(node), self.space, field)
+
+    def empty_map(self) -> VisuoMotorMap:
+        """A map that has learned nothing yet."""
+        node = self.cfg["map"]
+        learning = Learning(**_plain(node, "neurons"))
+        body = self.robot.body
+        return VisuoMotorMap(self.field, body.lower, body.upper, node["neurons"], learning)

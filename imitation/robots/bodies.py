@@ -1,0 +1,146 @@
+"""Builds arms and their cameras from plain values; `_target_` in the configuration names these."""
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from imitation.gaze import VisualSpace
+from imitation.guard import Guard
+from imitation.robot import Body
+from imitation.robots.bullet.arm import BulletArm
+from imitation.robots.bullet.world import Mark, Table, World, find_urdf
+from imitation.robots.ideal import IdealArm
+from imitation.robots.kinematic_chain import KinematicChain, TableAndBase
+from imitation.robots.simulated_camera import Scene, SimulatedCamera
+
+Numbers = Sequence[float]
+
+
+def body_of(
+    name: str,
+    urdf: str,
+    joints: Sequence[str],
+    base: Numbers,
+    speed: Numbers | None,
+    acceleration: Numbers,
+) -> Body:
+    """Joints and limits of an arm: ranges from its URDF, and speeds unless given."""
+    chain = KinematicChain(find_urdf(urdf), tuple(joints), [], np.asarray(base))
+    from_urdf = [joint.speed for joint in chain.limits]
+    body = Body(
+        name=name,
+        joint_names=tuple(joints),
+        lower=np.array([joint.lower for joint in chain.limits]),
+        upper=np.array([joint.upper for joint in chain.limits]),
+        speed=np.array(from_urdf if speed is None else speed),
+        acceleration=np.array(acceleration),
+    )
+    for key, values in (("speed", body.speed), ("acceleration", body.acceleration)):
+        if len(values) != len(joints) or not np.all(values > 0):
+            raise ValueError(f"robot.arm.{key} needs {len(joints)} numbers above 0, got {values}")
+    return body
+
+
+def bullet_arm(
+    name: str,
+    urdf: str,
+    joints: Sequence[str],
+    fingers: Sequence[str],
+    mark: Mapping[str, Any],
+    table: Mapping[str, Any],
+    base: Numbers,
+    speed: Numbers | None,
+    acceleration: Numbers,
+    force: Numbers,
+    finger_force: float,
+    rate: int,
+    iterations: int,
+    stiffness: float,
+) -> BulletArm:
+    """An arm in a PyBullet world of its own; see `World` and `BulletArm` for the values."""
+    world = World(
+        urdf=urdf,
+        joints=tuple(joints),
+        fingers=tuple(fingers),
+        mark=Mark(**{key: _frozen(value) for key, value in mark.items()}),
+        table=Table(**{key: _frozen(value) for key, value in table.items()}),
+        base=(base[0], base[1], base[2]),
+        rate=rate,
+        iterations=iterations,
+        force=tuple(force),
+        finger_force=finger_force,
+    )
+    return BulletArm(world, body_of(name, urdf, joints, base, speed, acceleration), stiffness)
+
+
+def ideal_arm(
+    name: str,
+    urdf: str,
+    joints: Sequence[str],
+    mark: Mapping[str, Any],
+    base: Numbers,
+    speed: Numbers | None,
+    acceleration: Numbers,
+) -> IdealArm:
+    """A kinematic arm with the geometry of a URDF."""
+    point = (str(mark["link"]), np.asarray(mark["offset"], dtype=float))
+    chain = KinematicChain(find_urdf(urdf), tuple(joints), [point], np.asarray(base, dtype=float))
+    red, green, blue = (round(255 * part) for part in mark["colour"][:3])
+    body = body_of(name, urdf, joints, base, speed, acceleration)
+    return IdealArm(body, chain, float(mark["radius"]), (red, green, blue))
+
+
+def head_camera(
+    arm: BulletArm | IdealArm,
+    space: VisualSpace,
+    rng: np.random.Generator,
+    eye: Numbers,
+    gaze: Numbers,
+    delay_frames: int,
+    noise_px: float,
+) -> SimulatedCamera:
+    """The simulated camera on its neck, looking at the world of `arm`."""
+    scene: Scene = arm.scene
+    return SimulatedCamera(
+        scene, space, np.asarray(eye), np.asarray(gaze), delay_frames, noise_px, rng
+    )
+
+
+def guard_of(
+    body: Body,
+    margin: float,
+    least_clearance: float,
+    urdf: str,
+    base: Numbers,
+    points: Sequence[Mapping[str, Any]],
+    table_height: float,
+    base_radius: float,
+    base_height: float,
+) -> Guard:
+    """The guard of an arm over a table; `points` are {link, at [m], radius [m]} along the arm."""
+    followed = [(str(point["link"]), np.asarray(point["at"], dtype=float)) for point in points]
+    chain = KinematicChain(
+        find_urdf(urdf), body.joint_names, followed, np.asarray(base, dtype=float)
+    )
+    around = TableAndBase(
+        chain=chain,
+        radii=np.array([float(point["radius"]) for point in points]),
+        table_height=table_height,
+        base=np.asarray(base[:2]),
+        base_radius=base_radius,
+        base_height=base_height,
+    )
+    return Guard(
+        lower=body.lower,
+        upper=body.upper,
+        speed=body.speed,
+        acceleration=body.acceleration,
+        margin=margin,
+        surroundings=around,
+        least_clearance=least_clearance,
+    )
+
+
+def _frozen(value: Any) -> Any:
+    return tuple(value) if isinstance(value, Sequence) and not isinstance(value, str) else value

@@ -1,0 +1,59 @@
+"""The step all stages share: attractors that take part, their pull, a velocity."""
+
+import numpy as np
+
+from imitation.arrays import Array
+from imitation.dynamics import Dynamics
+from imitation.sample import Decision, attractors_not_in_map
+from imitation.visuo_motor_map import Attractors
+
+
+def drawn_by(
+    attractors: Attractors,
+    selection: Array,
+    posture: Array,
+    dynamics: Dynamics,
+    gain: float,
+    noise_level: float = 0.0,
+    noise: Array | None = None,
+    target: Array | None = None,
+    distance: float = float("nan"),
+) -> Decision:
+    """What eqs. 1 and 2 make of the attractors: still and silent when none takes part.
+
+    Args:
+        attractors: Those that take part.
+        selection: V, (rows, columns).
+        posture: The present posture, (n_joints,) [rad].
+        dynamics: Eqs. 1 and 2.
+        gain: A.
+        noise_level: epsilon.
+        noise: The noise drawn, (n_joints,) [-1..1]; None for none.
+        target: (2,) [px]; None without one.
+        distance: From the seen hand to the target [px].
+    """
+    pull = dynamics.pull(posture, attractors.postures, attractors.weights)
+    drawn = np.zeros(len(posture)) if noise is None or not len(pull.activation) else noise
+    return Decision(
+        selection=selection,
+        index=attractors.index,
+        postures=attractors.postures,
+        activation=pull.activation,
+        shares=pull.shares,
+        gain=gain,
+        noise_level=noise_level,
+        noise=drawn,
+        velocity=dynamics.velocity(pull, gain, drawn),
+        target=target,
+        distance=distance,
+    )
+
+
+def one_attractor(posture: Array) -> Attractors:
+    """A single attractor at `posture` (n_joints,) [rad] that no cluster holds."""
+    return Attractors(posture[None], np.ones(1), attractors_not_in_map(1))
+
+
+def braking(decision: Decision, velocity: Array) -> Decision:
+    """`decision` with its velocity replaced, all else as drawn."""
+    return Decision(**{**decision.__dict__, "velocity": velocity})
