@@ -46,9 +46,9 @@ class Form:
             rest = rest[at + len(value) :]
         self._parts = [*parts, rest]
 
-    def fill(self, *values: bytes) -> bytes:
+    def fill(self, *values: bytes | NDArray[Any]) -> bytes:
         """The message with `values` in place of those it was made with, as CDR."""
-        parts = self._parts.copy()
+        parts: list[Any] = self._parts.copy()
         parts[1::2] = values
         return b"".join(parts)
 

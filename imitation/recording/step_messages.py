@@ -2,19 +2,21 @@
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
 from imitation.arrays import Array
 from imitation.recording import messages
 from imitation.recording.messages import stamp
-from imitation.robot import Body, Observation, Truth
+from imitation.robot import Applied, Body, Observation, Truth
 from imitation.sample import Decision, Event, Sample
 from imitation.visual_field import VisualField
 
 VISUAL_SPACE = "visual_space"  # frame of every place [px]
 WORLD = "world"  # frame of every pose [m]
 GRID = ("rows", "columns")
+OF_ATTRACTORS = ("attractors", "joints")
 
 
 @dataclass(frozen=True)
@@ -25,8 +27,7 @@ class Topic:
     names: tuple[str, ...] = ()  # of an array's entries along its last dimension
 
 
-@dataclass(frozen=True)
-class Message:
+class Message(NamedTuple):
     """One message of the recording."""
 
     topic: str
@@ -86,7 +87,7 @@ class StepMessages:
         """The step's messages: senses, decision, what was applied, events, truth."""
         yield from self._senses(sample)
         yield from self._decision(sample.seen.time_ns, sample.decision)
-        yield from self._applied(sample)
+        yield from self._applied(sample.applied)
         for event in sample.events:
             yield _event(sample.seen.time_ns, event)
         for truth in truths:
@@ -97,46 +98,45 @@ class StepMessages:
         captured = stamp(seen.frame_time_ns)
         if seen.frame_time_ns != self._frame_time_ns:
             self._frame_time_ns = seen.frame_time_ns
-            yield Message("/camera/image", seen.frame_time_ns, _picture(seen))
+            yield Message("/camera/image", seen.frame_time_ns, _picture(seen, captured))
         yield Message("/camera/used", now, messages.header_form("camera").fill(captured))
         joints = messages.joint_form(self._joints)
-        state = joints.fill(stamp(now), _doubles(seen.posture), _doubles(seen.velocity))
+        state = joints.fill(stamp(now), doubles(seen.posture), doubles(seen.velocity))
         yield Message("/joint_states", now, state)
-        yield Message("/gaze", now, _named(seen.gaze, "pan, tilt"))
+        yield Message("/gaze", now, _floats(seen.gaze, ("pan, tilt",)))
         gripper = np.array((seen.opening, seen.proximity, seen.touching))
-        yield Message("/gripper", now, _named(gripper, "opening, proximity, touching"))
+        yield Message("/gripper", now, _floats(gripper, ("opening, proximity, touching",)))
         if seen.place_noise.any():
-            yield Message("/hand/noise", now, _place(seen.frame_time_ns, seen.place_noise))
+            yield Message("/hand/noise", now, _place(captured, seen.place_noise))
         if percept.hand is not None:
-            yield Message("/hand", now, _place(percept.time_ns, percept.hand))
+            yield Message("/hand", now, _place(stamp(percept.time_ns), percept.hand))
         yield Message("/visual_input", now, _floats(percept.visual_input, GRID))
 
     def _decision(self, now: int, decision: Decision) -> Iterator[Message]:
         if decision.target is not None:
-            yield Message("/target", now, _place(now, decision.target))
+            yield Message("/target", now, _place(stamp(now), decision.target))
         yield Message("/selection", now, _floats(decision.selection, GRID))
-        index = messages.integers_form(decision.index.shape, ("attractors", "row, column, neuron"))
-        rows = np.ascontiguousarray(decision.index, dtype="<i4")
-        yield Message("/attractors/index", now, index.fill(rows.tobytes()))
+        index = np.ascontiguousarray(decision.index, dtype="<i4")
+        form = messages.integers_form(index.shape, ("attractors", "row, column, neuron"))
+        yield Message("/attractors/index", now, form.fill(index))
         activation = _floats(decision.activation, ("attractors",))
         yield Message("/attractors/activation", now, activation)
-        if (rows < 0).any():
-            postures = _floats(decision.postures, ("attractors", "joints"))
-            yield Message("/attractors/posture", now, postures)
-        yield Message("/attractors/pull", now, _floats(decision.shares, ("attractors", "joints")))
+        if (index < 0).any():
+            yield Message("/attractors/posture", now, _floats(decision.postures, OF_ATTRACTORS))
+        yield Message("/attractors/pull", now, _floats(decision.shares, OF_ATTRACTORS))
         dynamics = np.array((decision.gain, decision.noise_level, decision.distance))
-        yield Message("/dynamics", now, _named(dynamics, "gain, noise level, distance"))
+        yield Message("/dynamics", now, _floats(dynamics, ("gain, noise level, distance",)))
         yield Message("/dynamics/noise", now, _floats(decision.noise, ("joints",)))
 
-    def _applied(self, sample: Sample) -> Iterator[Message]:
-        applied, form = sample.applied, messages.velocity_form(self._joints)
-        when, sent = applied.time_ns, stamp(applied.time_ns)
-        for part in ("requested", "limited", "sent"):
-            velocity = _doubles(getattr(applied, part))
-            yield Message(f"/joint_command/{part}", when, form.fill(sent, velocity))
+    def _applied(self, applied: Applied) -> Iterator[Message]:
+        now, sent = applied.time_ns, stamp(applied.time_ns)
+        fill = messages.velocity_form(self._joints).fill
+        yield Message("/joint_command/requested", now, fill(sent, doubles(applied.requested)))
+        yield Message("/joint_command/limited", now, fill(sent, doubles(applied.limited)))
+        yield Message("/joint_command/sent", now, fill(sent, doubles(applied.sent)))
         if applied.reasons != self._reasons:
             self._reasons = applied.reasons
-            yield _event(when, _limitation(applied.reasons))
+            yield _event(now, _limitation(applied.reasons))
 
 
 def _limitation(reasons: tuple[str, ...]) -> Event:
@@ -152,33 +152,30 @@ def _event(time_ns: int, event: Event) -> Message:
 
 
 def _truth(truth: Truth) -> Iterator[Message]:
-    yield Message("/truth/hand", truth.time_ns, _place(truth.time_ns, truth.hand_px))
+    when = stamp(truth.time_ns)
+    yield Message("/truth/hand", truth.time_ns, _place(when, truth.hand_px))
     if truth.object_pose is not None:
-        pose = messages.pose_form(WORLD).fill(stamp(truth.time_ns), _doubles(truth.object_pose))
+        pose = messages.pose_form(WORLD).fill(when, doubles(truth.object_pose))
         yield Message("/truth/object", truth.time_ns, pose)
 
 
-def _picture(seen: Observation) -> bytes:
+def _picture(seen: Observation, captured: bytes) -> bytes:
     if seen.jpeg is not None:
         return messages.compressed_image(seen.frame_time_ns, seen.jpeg)
     frame = np.ascontiguousarray(seen.frame)
     height, width, channels = frame.shape
-    form = messages.image_form((height, width, channels))
-    return form.fill(stamp(seen.frame_time_ns), frame.tobytes())
+    return messages.image_form((height, width, channels)).fill(captured, frame)
 
 
-def _place(time_ns: int, place: Array) -> bytes:
+def _place(when: bytes, place: Array) -> bytes:
     x_y_z = np.array((place[0], place[1], 0.0))
-    return messages.point_form(VISUAL_SPACE).fill(stamp(time_ns), x_y_z.tobytes())
-
-
-def _named(values: Array, label: str) -> bytes:
-    return messages.floats_form(values.shape, (label,)).fill(_doubles(values))
+    return messages.point_form(VISUAL_SPACE).fill(when, x_y_z)
 
 
 def _floats(values: Array, labels: tuple[str, ...]) -> bytes:
-    return messages.floats_form(values.shape, labels).fill(_doubles(values))
+    return messages.floats_form(values.shape, labels).fill(doubles(values))
 
 
-def _doubles(values: Array) -> bytes:
-    return np.ascontiguousarray(values, dtype="<f8").tobytes()
+def doubles(values: Array) -> Array:
+    """`values` as they lie in a message."""
+    return np.ascontiguousarray(values, dtype="<f8")
