@@ -1,29 +1,43 @@
 """A ROS 2 bag in an MCAP file: how it is written and read. The one module that knows MCAP."""
 
 import json
+import os
 import struct
 import time
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, field
 from datetime import UTC, datetime
+from io import BytesIO
 from pathlib import Path
 from typing import Any, BinaryIO
 
-from mcap.data_stream import RecordBuilder
+from mcap.data_stream import ReadDataStream, RecordBuilder
+from mcap.exceptions import EndOfFile, McapError
 from mcap.opcode import Opcode
 from mcap.records import (
+    Attachment,
+    Channel,
+    Chunk,
+    Header,
+    McapRecord,
     MessageIndex,
+    Metadata,
+    Schema,
 )
-from mcap.writer import CompressionType, Writer
+from mcap.stream_reader import StreamReader, get_chunk_data_stream
+from mcap.writer import MCAP0_MAGIC, CompressionType, Writer
+from zstandard import ZstdError
 
 from imitation.recording import messages
 from imitation.recording.digest import Digest
 from imitation.recording.step_messages import Message, Topic, topics
-from imitation.robot import Body
+from imitation.robot import SECOND, Body
 from imitation.sample import Sample
 from imitation.visual_field import VisualField
 
 WALL_LIMIT = 1.0  # a chunk older than this is closed, unless reproducible [s]
 MESSAGE_HEAD = struct.Struct("<BQHIQQ")  # opcode, length, channel, sequence, two times
+RECORD_HEAD = struct.Struct("<BQ")  # opcode, length
 NO_LIMIT = 1 << 62  # chunks are closed at the end of a step, never by their size
 MEDIA_TYPES = {".yaml": "application/yaml", ".json": "application/json", ".urdf": "application/xml"}
 
@@ -101,6 +115,7 @@ class McapFile:
         if self._chunk_start_ns is not None or not self._digests:
             self._close_chunk()
         self._writer.finish()
+        self._stream.flush()
 
     def close(self) -> None:
         """Close the file; harmless when repeated."""
@@ -162,3 +177,94 @@ class _QuickIndex(MessageIndex):
         stream.start_record(Opcode.MESSAGE_INDEX)
         stream.write(content)
         stream.finish_record()  # type: ignore[no-untyped-call]
+
+
+@dataclass
+class Contents:
+    """What a file holds beside its messages."""
+
+    whole: bool = False  # closed as it should be, not cut
+    metadata: dict[str, dict[str, str]] = field(default_factory=dict)
+    attachments: dict[str, bytes] = field(default_factory=dict)
+    channels: dict[int, Channel] = field(default_factory=dict)
+    schemas: dict[int, Schema] = field(default_factory=dict)
+
+    def take(self, record: McapRecord) -> None:
+        """Keep what `record` says."""
+        if isinstance(record, Metadata):
+            self.metadata[record.name] = record.metadata
+        elif isinstance(record, Attachment):
+            self.attachments[record.name] = record.data
+        elif isinstance(record, Channel):
+            self.channels[record.id] = record
+        elif isinstance(record, Schema):
+            self.schemas[record.id] = record
+
+
+def contents(path: Path) -> Contents:
+    """What the file holds, as far as it goes.
+
+    Raises:
+        ValueError: It is no ROS 2 bag in an MCAP file, or it is damaged.
+    """
+    found = Contents()
+    for record in _records(path):
+        found.take(record)
+    with path.open("rb") as stream:
+        stream.seek(-len(MCAP0_MAGIC), os.SEEK_END)
+        found.whole = stream.read() == MCAP0_MAGIC
+    if not found.whole:  # without the summary at its end, the channels stand in the chunks alone
+        for _ in chunks(path, found):
+            pass
+    return found
+
+
+def chunks(path: Path, found: Contents) -> Iterator[list[Message]]:
+    """The messages of each chunk in the order written, up to where the file was cut.
+
+    Args:
+        path: The file.
+        found: Learns the channels on the way.
+
+    Raises:
+        ValueError: A chunk is damaged.
+    """
+    for record in _records(path):
+        if isinstance(record, Chunk):
+            try:
+                stream, length = get_chunk_data_stream(record, validate_crc=True)
+            except (ValueError, ZstdError) as error:
+                at = record.message_start_time / SECOND
+                raise ValueError(f"{path} is damaged at {at:.2f} s of the run: {error}") from error
+            yield list(_messages(stream.read(length), found))
+
+
+def _messages(data: bytes, found: Contents) -> Iterator[Message]:
+    at = 0
+    while at < len(data):
+        opcode, length = RECORD_HEAD.unpack_from(data, at)
+        start, end = at + RECORD_HEAD.size, at + RECORD_HEAD.size + length
+        if opcode == Opcode.MESSAGE:
+            _, _, channel, _, time_ns, _ = MESSAGE_HEAD.unpack_from(data, at)
+            topic = found.channels[channel].topic
+            yield Message(topic, time_ns, data[at + MESSAGE_HEAD.size : end])
+        elif opcode in (Opcode.CHANNEL, Opcode.SCHEMA):
+            kind = Channel if opcode == Opcode.CHANNEL else Schema
+            found.take(kind.read(ReadDataStream(BytesIO(data[start:end]))))
+        at = end
+
+
+def _records(path: Path) -> Iterator[McapRecord]:
+    """Records of the file up to its end or to where it was cut; chunks are not opened."""
+    with path.open("rb") as stream:
+        records = StreamReader(stream, emit_chunks=True).records
+        try:
+            header = next(records)
+        except (StopIteration, McapError, struct.error) as error:
+            raise ValueError(f"{path} is no recording: it is not an MCAP file") from error
+        if not isinstance(header, Header) or header.profile != "ros2":
+            raise ValueError(f"{path} is no recording of this bench: it is not a ROS 2 bag")
+        try:
+            yield from records
+        except (EndOfFile, struct.error, UnicodeDecodeError):
+            return  # cut; the reader gives a record only when it is complete

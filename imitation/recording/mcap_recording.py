@@ -1,13 +1,18 @@
 """The recording `run.mcap`: written live from a thread, and read again."""
 
+import json
 import queue
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
 from pathlib import Path
 from types import TracebackType
+from typing import Any
 
+from imitation.recording import messages
+from imitation.recording.digest import Digest
 from imitation.recording.fifo import Worker
-from imitation.recording.mcap_file import McapFile
-from imitation.recording.step_messages import StepMessages
+from imitation.recording.mcap_file import Contents, McapFile, chunks, contents
+from imitation.recording.step_messages import Message, StepMessages, Topic
 from imitation.robot import SECOND, Body, Truth
 from imitation.sample import Sample
 from imitation.visual_field import VisualField
@@ -100,7 +105,8 @@ class Recorder:
         except OSError as error:
             raise self._failure(error) from error
         finally:
-            self._file.close()
+            with suppress(OSError):  # of bytes that were refused, and told of, before
+                self._file.close()
 
     def __enter__(self) -> "Recorder":
         return self
@@ -136,3 +142,83 @@ def bounds(max_loss: float, period_ns: int) -> tuple[int, int]:
         )
     waiting = max(1, min(LONGEST_QUEUE_NS, loss_ns // 4) // period_ns)
     return waiting, loss_ns - waiting * period_ns
+
+
+class Recording:
+    """A recording as it was written, whole or cut.
+
+    Attributes:
+        path: The file.
+        whole: Whether it was closed as it should be; a killed run's is not.
+        metadata: Its records by name: `run`, `digest/0001`, ...
+        attachments: The files that belong to the run, by name.
+    """
+
+    def __init__(self, path: Path, found: Contents) -> None:
+        self.path, self._found = path, found
+        self.whole, self.metadata = found.whole, found.metadata
+        self.attachments = found.attachments
+
+    @classmethod
+    def open(cls, path: Path) -> "Recording":
+        """Open a recording, or the one in a run folder.
+
+        Raises:
+            ValueError: There is none, or it is none of this bench; the message says which.
+        """
+        file = path / "run.mcap" if path.is_dir() else path
+        if not file.is_file():
+            raise ValueError(f"no recording at {file}; give a run folder or its run.mcap")
+        return cls(file, contents(file))
+
+    @property
+    def topics(self) -> dict[str, Topic]:
+        """Every topic that was written, with its type and the names of its entries."""
+        channels, schemas = self._found.channels.values(), self._found.schemas
+        return {
+            channel.topic: Topic(
+                schemas[channel.schema_id].name,
+                tuple(json.loads(channel.metadata.get("names", "[]"))),
+            )
+            for channel in channels
+        }
+
+    def chunks(self) -> Iterator[list[Message]]:
+        """All messages, chunk by chunk, in the order written; a chunk holds whole steps.
+
+        Raises:
+            ValueError: The file is damaged.
+        """
+        return chunks(self.path, self._found)
+
+    def messages(self, topic: str) -> Iterator[tuple[int, Any]]:
+        """Time [ns] and decoded message of each message of a topic; none if it was not written.
+
+        Raises:
+            ValueError: The file is damaged.
+        """
+        if topic not in self.topics:
+            return
+        kind = self.topics[topic].type
+        for chunk in self.chunks():
+            for message in chunk:
+                if message.topic == topic:
+                    yield message.time_ns, messages.decoded(message.data, kind)
+
+    def digest(self) -> dict[str, str]:
+        """The last digest that was written: the seal of a whole recording; empty if none."""
+        names = [name for name in self.metadata if name.startswith("digest/")]
+        return self.metadata[max(names, key=lambda name: int(name[7:]))] if names else {}
+
+    def recomputed_digest(self) -> dict[str, str]:
+        """The same, from what the messages say.
+
+        Raises:
+            ValueError: The file is damaged.
+        """
+        digest = Digest()
+        for chunk in self.chunks():
+            for message in chunk:
+                digest.add(*message)
+            digest.values()
+        return digest.values()

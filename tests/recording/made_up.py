@@ -1,10 +1,13 @@
 """A run made up without a robot: a red disc on a circle, five joints, a reach."""
 
 from collections.abc import Iterator
+from pathlib import Path
 
 import numpy as np
 
 from imitation.perception import Percept
+from imitation.recording.mcap_recording import Recorder
+from imitation.recording.step_messages import Topic, topics
 from imitation.robot import Applied, Body, Command, Observation, Truth
 from imitation.sample import Decision, Event, Sample, attractors_not_in_map
 from imitation.visual_field import VisualField
@@ -96,3 +99,23 @@ def sample(step: int, rng: np.random.Generator) -> Sample:
     percept = Percept(now, hand, activity)
     applied = Applied(velocity, limited, limited, reasons, now)
     return Sample(seen, percept, decision, Command(velocity), applied, events)
+
+
+def recorder(path: Path, reproducible: bool = True, **more: object) -> Recorder:
+    """A recorder of the made-up run."""
+    return Recorder(
+        path,
+        body=BODY,
+        field=FIELD,
+        period_ns=PERIOD_NS,
+        metadata={"command": "reach", "seed": "0"},
+        attachments=more.pop("attachments", {"config.yaml": b"seed: 0\n"}),
+        max_loss=more.pop("max_loss", 1.0),
+        reproducible=reproducible,
+        **more,
+    )
+
+
+def all_topics() -> dict[str, Topic]:
+    """Every topic of a made-up run."""
+    return topics(BODY, FIELD, jpeg=False)
