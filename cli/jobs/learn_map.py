@@ -1,0 +1,86 @@
+"""imitate learn-map: babble, watch the own hand, save the map."""
+
+from typing import Any
+
+import hydra
+import numpy as np
+from omegaconf import DictConfig
+
+from cli.build import generator
+from cli.job import job
+from cli.run import Outcome, Run
+from imitation.analysis.metrics import learn_map_metrics
+from imitation.arrays import Array
+from imitation.hull import outline
+from imitation.recording.map_file import fingerprint, save_map
+from imitation.stages.babbling import Babbling, Curiosity
+from imitation.stages.learn_map import Learner, LearningRun, learn_map
+
+
+@hydra.main(version_base="1.3", config_path="pkg://conf", config_name="learn_map")
+def main(cfg: DictConfig) -> int:
+    """One job."""
+    return job("learn-map", cfg, learn)
+
+
+def learn(run: Run) -> Outcome:
+    """Learn a map and save it beside the recording."""
+    bench, cfg = run.bench, run.cfg
+    learned, body = bench.empty_map(), bench.robot.body
+    rng = generator(cfg["seed"], "babbling")
+    babbling = Babbling(bench.guided, Curiosity(**cfg["curiosity"]), body.speed, rng)
+    settings = LearningRun(**cfg["learning"])
+    perception = bench.perception(bench.field)
+    learner = Learner(bench.robot, perception, bench.dynamics, learned, settings)
+    run.record(learn_map(learner, babbling), bench.field)
+    told = fingerprint(body, bench.field, bench.space)
+    save_map(run.folder / "map.npz", learned, _outline(learner), told)
+    metrics = learn_map_metrics(learned, learner.shown)
+    at_limit = run.robot_time_s >= settings.limit
+    return Outcome(
+        metrics=metrics,
+        rows=map_card(metrics),
+        next="imitate reach map={run}",
+        complaint=complaint(metrics, "the limit came first" if at_limit else None),
+    )
+
+
+def map_card(metrics: dict[str, Any]) -> list[tuple[str, str]]:
+    """What is printed of a map."""
+    return [
+        ("areas learned", f"{metrics['areas_learned']} of {metrics['areas_total']}"),
+        ("place error", _px(metrics, "place_error_px", "place_error_max_px")),
+        ("prediction error", _px(metrics, "prediction_error_px")),
+        ("spread of neighbours", _number(metrics["neighbour_spread"], "of the joints' range / 2")),
+        ("areas never seen", _areas(metrics["areas_never_seen"])),
+    ]
+
+
+def complaint(metrics: dict[str, Any], ended: str | None) -> str | None:
+    """Why the map is not what was asked for; None when it is."""
+    if not np.any(metrics["visits"]):
+        return (
+            "the hand was never seen: is something of vision='s colour on it, in the camera's view?"
+        )
+    missed = metrics["areas_not_confirmed"]
+    if missed:
+        return f"reached but not learned: {_areas(missed)}; another seed may do, such as seed=1"
+    return ended
+
+
+def _outline(learner: Learner) -> Array:
+    places = np.array(learner.places).reshape(-1, 2)
+    return outline(places) if len(places) else places
+
+
+def _px(metrics: dict[str, Any], median: str, largest: str | None = None) -> str:
+    told = _number(metrics[median], "px in the median")
+    return f"{told}, {_number(metrics[largest], 'px at most')}" if largest else told
+
+
+def _number(value: float | None, unit: str) -> str:
+    return "none" if value is None else f"{value:.2f} {unit}"
+
+
+def _areas(areas: list[list[int]]) -> str:
+    return ", ".join(str(area) for area in areas) or "none"

@@ -1,0 +1,67 @@
+"""From the words after a command to Hydra, and from its jobs back to one exit code."""
+
+import os
+import sys
+from collections.abc import Callable
+from importlib import import_module
+
+from cli.errors import BAD_INPUT, DONE, INTERRUPTED, UserError, say
+from cli.words import Words, understand
+
+# Runs, logs and configurations are kept by cli/run.py: Hydra makes no folder and no log.
+QUIET = (
+    "hydra.run.dir=.",
+    "hydra.output_subdir=null",
+    "hydra.job.chdir=false",
+    "hydra/job_logging=none",
+    "hydra/hydra_logging=none",
+)
+
+
+def launch(command: str, typed: list[str]) -> int:
+    """Run a command, once or as a sweep, and return the exit code."""
+    try:
+        words = understand(typed)
+        return _run(command, words)
+    except UserError as error:
+        say(str(error))
+        return BAD_INPUT
+    except KeyboardInterrupt:
+        return INTERRUPTED
+
+
+def _run(command: str, words: Words) -> int:
+    from cli import job, trouble
+
+    main = import_module(f"cli.jobs.{command.replace('-', '_')}").main
+    job.codes.clear()
+    try:
+        if words.sweep:
+            return _sweep(command, words, main)
+        _call(main, [*words.overrides, *QUIET, *words.flags])
+    except Exception as error:
+        raise trouble.as_user_error(command, words, error) from error
+    return max(job.codes, default=DONE)
+
+
+def _sweep(command: str, words: Words, main: Callable[[], None]) -> int:
+    from cli.folder import make_run_folder
+    from cli.sweep import out_of, quoted, summary
+
+    folder = make_run_folder(out_of(words.overrides), f"{command}")
+    where = (f"hydra.sweep.dir={quoted(str(folder))}", "hydra.sweep.subdir=.")
+    _call(main, [*words.overrides, *QUIET, *where, *words.flags])
+    return summary(folder)
+
+
+def _call(main: Callable[[], None], words: list[str]) -> None:
+    """Call a Hydra function as if `words` had been typed after it."""
+    before, full = sys.argv, os.environ.get("HYDRA_FULL_ERROR")
+    sys.argv = [before[0], *words]
+    os.environ["HYDRA_FULL_ERROR"] = "1"  # errors come to us, whole, instead of a summary
+    try:
+        main()
+    finally:
+        sys.argv = before
+        if full is None:
+            del os.environ["HYDRA_FULL_ERROR"]

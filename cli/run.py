@@ -1,0 +1,166 @@
+"""A run: its folder, recording, log and numbers, opened and closed here and nowhere else."""
+
+import json
+import logging
+import math
+import platform
+import shlex
+import sys
+import time
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from omegaconf import OmegaConf
+
+from cli.build import Bench, Config
+from cli.interruption import Interruption
+from cli.progress import ProgressReport
+from cli.provenance import run_record, sha256
+from imitation.recording.mcap_recording import Recorder
+from imitation.robot import SECOND, Robot, Truth
+from imitation.robots.bullet.world import find_urdf
+from imitation.sample import Sample
+from imitation.visual_field import VisualField
+
+Watcher = Callable[[Sample, list[Truth]], None]
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What a run brought."""
+
+    metrics: dict[str, Any]
+    rows: list[tuple[str, str]]  # what is printed of it: name, value
+    next: str  # the command to type next
+    complaint: str | None = None  # why the exit code is 1; None: all came true
+
+
+@dataclass
+class Run:
+    """One run of a stage.
+
+    Args:
+        command: What was typed, such as learn-map.
+        cfg: The composed configuration, checked.
+        folder: Made for this run alone.
+    """
+
+    command: str
+    cfg: Config
+    folder: Path
+    log: logging.Logger = field(init=False)
+    steps: int = 0
+    robot_time_s: float = 0.0
+    _inputs: dict[str, Path] = field(default_factory=dict)
+    _began: float = field(default_factory=time.monotonic)
+
+    def __post_init__(self) -> None:
+        self.log = _log_to(self.folder / "log.txt")
+        self.log.info("%s on %s", shlex.join(["imitate", *sys.argv[1:]]), platform.node())
+        (self.folder / "config.yaml").write_text(
+            OmegaConf.to_yaml(OmegaConf.create(dict(self.cfg)))
+        )
+        self.bench = Bench(self.cfg)
+
+    def uses(self, key: str, path: Path) -> None:
+        """Attach the file that the configuration's `key` names to the recording."""
+        self._inputs[key] = path
+
+    def record(
+        self, samples: Iterator[Sample], visual_field: VisualField, watch: Watcher | None = None
+    ) -> None:
+        """Run the stage to its end, writing every step.
+
+        Raises:
+            KeyboardInterrupt: A signal asked for the end; the recording is closed and readable.
+        """
+        robot = self.bench.robot
+        recorder = self._recorder(robot, visual_field)
+        with recorder, ProgressReport(self.command) as report, Interruption() as interruption:
+            for sample in samples:
+                truths = robot.truth()
+                recorder.write(sample, truths)
+                if watch:
+                    watch(sample, truths)
+                report.step(sample)
+                self._note(sample)
+                if interruption.wanted:
+                    break
+        if interruption.wanted:
+            raise KeyboardInterrupt
+
+    def write_metrics(self, status: str, more: Config) -> None:
+        """Write metrics.json; what is no number becomes null."""
+        content = {
+            "command": self.command,
+            "status": status,
+            "seed": self.cfg["seed"],
+            "robot_time_s": self.robot_time_s,
+            "wall_time_s": round(time.monotonic() - self._began, 3),
+            "steps": self.steps,
+            **more,
+        }
+        text = json.dumps(plain(content), indent=2, allow_nan=False, ensure_ascii=False)
+        (self.folder / "metrics.json").write_text(text + "\n")
+
+    def close(self) -> None:
+        """Stop the arm, release the devices, end the log."""
+        if "robot" in self.bench.__dict__:
+            self.bench.robot.close()
+        for handler in list(self.log.handlers):
+            self.log.removeHandler(handler)
+            handler.close()
+
+    def _note(self, sample: Sample) -> None:
+        self.steps += 1
+        self.robot_time_s = round(sample.applied.time_ns / SECOND + self.bench.robot.period, 9)
+        for event in sample.events:
+            self.log.info("%.2f s: %s: %s", sample.seen.time, event.kind, event.sentence)
+
+    def _recorder(self, robot: Robot, visual_field: VisualField) -> Recorder:
+        settings, seed = self.cfg["recording"], self.cfg["seed"]
+        return Recorder(
+            self.folder / "run.mcap",
+            body=robot.body,
+            field=visual_field,
+            period_ns=robot.period_ns,
+            metadata=run_record(self.command, seed, self.cfg["robot"]["name"]),
+            attachments=dict(self._attachments()),
+            max_loss=settings["max_loss"],
+            reproducible=settings["reproducible"],
+        )
+
+    def _attachments(self) -> Iterable[tuple[str, bytes]]:
+        told = {key: value for key, value in self.cfg.items() if key != "out"}
+        told |= {key: f"sha256:{sha256(path)}" for key, path in self._inputs.items()}
+        yield "config.yaml", OmegaConf.to_yaml(OmegaConf.create(told)).encode()
+        for path in self._inputs.values():
+            yield path.name, path.read_bytes()
+        if urdf := self.cfg["robot"]["arm"].get("urdf"):
+            yield Path(urdf).name, find_urdf(urdf).read_bytes()
+
+
+def plain(value: Any) -> Any:
+    """`value` as JSON can hold it: lists and numbers of Python, None for what is no number."""
+    if isinstance(value, dict):
+        return {str(key): plain(one) for key, one in value.items()}
+    if isinstance(value, list | tuple | set):
+        return [plain(one) for one in value]
+    if isinstance(value, np.ndarray | np.generic):
+        return plain(value.tolist())
+    if isinstance(value, float):
+        return value if math.isfinite(value) else None
+    return value
+
+
+def _log_to(path: Path) -> logging.Logger:
+    log = logging.getLogger(f"imitate.{path.parent}")
+    log.setLevel(logging.INFO)
+    log.propagate = False
+    handler = logging.FileHandler(path)
+    handler.setFormatter(logging.Formatter("%(asctime)s %(levelname)s %(message)s"))
+    log.addHandler(handler)
+    return log

@@ -1,0 +1,52 @@
+"""A sweep: one folder with one folder a job inside it, and the worst of their exit codes."""
+
+import json
+import os
+from pathlib import Path
+from typing import Any
+
+from hydra.core.override_parser.overrides_parser import OverridesParser
+from rich.console import Console
+from rich.table import Table
+
+from cli.errors import BAD_INPUT, UserError
+
+
+def out_of(overrides: list[str]) -> str | None:
+    """Where the sweep is to lie: the value of `out=`, or None."""
+    words = [word for word in overrides if word.lstrip("+").startswith("out=")]
+    if not words:
+        return None
+    [parsed] = OverridesParser.create().parse_overrides(words[-1:])
+    if parsed.is_sweep_override():
+        raise UserError(f"{words[-1]}: a sweep has one folder, with one folder a job inside it")
+    value = parsed.value()
+    return None if value is None else str(value)
+
+
+def quoted(text: str) -> str:
+    """`text` as a quoted value of Hydra's grammar."""
+    return "'" + text.replace("\\", "\\\\").replace("'", "\\'") + "'"
+
+
+def summary(folder: Path) -> int:
+    """Gather the jobs' exit codes in sweep.json, print them, and return the worst."""
+    jobs = sorted(_told(folder), key=lambda one: int(one["job"]))
+    (folder / "sweep.json").write_text(json.dumps({"jobs": jobs}, indent=2) + "\n")
+    table = Table(title="sweep", title_justify="left")
+    for heading in ("job", "exit code", "overrides"):
+        table.add_column(heading)
+    for one in jobs:
+        table.add_row(str(one["job"]), str(one["exit_code"]), " ".join(one["overrides"]))
+    console = Console(highlight=False, soft_wrap=True)
+    console.print(table)
+    console.print(f"files  {os.path.relpath(folder)}/", markup=False)
+    return max((int(one["exit_code"]) for one in jobs), default=BAD_INPUT)
+
+
+def _told(folder: Path) -> list[dict[str, Any]]:
+    jobs = []
+    for path in folder.glob(".job-*.json"):
+        jobs.append(json.loads(path.read_text()))
+        path.unlink()
+    return jobs

@@ -1,0 +1,74 @@
+"""The words after a command: KEY=VALUE overrides and Hydra's flags, in the order Hydra wants."""
+
+import re
+from dataclasses import dataclass, field
+
+from cli.errors import UserError, nearest
+
+OVERRIDE = re.compile(r"^[+~]*[\w/@.]+=|^~[\w/@.]+$")
+SWITCHES = {"-m": "--multirun", "--multirun": "--multirun", "--resolve": "--resolve"}
+WITH_VALUE = {
+    "--cfg": ("job", "hydra", "all"),
+    "-c": ("job", "hydra", "all"),
+    "--info": ("all", "config", "defaults", "defaults-tree", "plugins", "searchpath"),
+    "--config-dir": (),
+    "-cd": (),
+    "--package": (),
+    "-p": (),
+}
+
+
+@dataclass
+class Words:
+    """What was typed after the command."""
+
+    overrides: list[str] = field(default_factory=list)
+    flags: list[str] = field(default_factory=list)  # Hydra's, with their values
+
+    @property
+    def sweep(self) -> bool:
+        """Whether several jobs are asked for."""
+        return "--multirun" in self.flags
+
+    @property
+    def only_shows(self) -> bool:
+        """Whether the configuration is to be shown rather than run."""
+        return any(flag.startswith(("--cfg=", "--info=")) for flag in self.flags)
+
+
+def understand(typed: list[str]) -> Words:
+    """Sort the words; Hydra wants all overrides in one block before its flags."""
+    words, rest = Words(), list(typed)
+    while rest:
+        word = rest.pop(0)
+        name, equals, value = word.partition("=")
+        if OVERRIDE.match(word):
+            words.overrides.append(word)
+        elif name in SWITCHES and not equals:
+            words.flags.append(SWITCHES[name])
+        elif name in WITH_VALUE:
+            words.flags.append(_with_value(name, value if equals else _next(name, rest)))
+        elif word.startswith("-"):
+            known = [*SWITCHES, *WITH_VALUE, "--help"]
+            raise UserError(f"unknown option {word}{nearest(word, known)}")
+        else:
+            raise UserError(f"expected KEY=VALUE, got {word}; type for instance seed=1")
+    if words.sweep and words.only_shows:
+        raise UserError("-m runs a sweep and --cfg or --info only shows: give one of them")
+    if "--resolve" in words.flags and not words.only_shows:
+        raise UserError("--resolve goes with --cfg: type --cfg job --resolve")
+    return words
+
+
+def _next(name: str, rest: list[str]) -> str:
+    if not rest:
+        raise UserError(f"{name} needs a value: {' '.join(WITH_VALUE[name]) or 'a name'}")
+    return rest.pop(0)
+
+
+def _with_value(name: str, value: str) -> str:
+    choices = WITH_VALUE[name]
+    if choices and value not in choices:
+        raise UserError(f"{name} takes {', '.join(choices)}; got {value}{nearest(value, choices)}")
+    long = {"-c": "--cfg", "-cd": "--config-dir", "-p": "--package"}.get(name, name)
+    return f"{long}={value}"
