@@ -66,7 +66,7 @@ class Guard:
             period: Control period [s].
         """
         if not (np.isfinite(wanted).all() and np.isfinite(posture).all()):
-            return self._ramped(np.zeros_like(before), before, period), ("not a number",)
+            return self._braked(before, period), ("not a number",)
         reasons: list[str] = []
         # All joints are slowed together, so that the arm keeps its direction.
         excess = float(np.max(np.abs(wanted) / self.speed))
@@ -80,7 +80,7 @@ class Guard:
         if not np.allclose(stopping, ramped, rtol=0, atol=1e-9):
             reasons.append("joint limit")
         if self._too_near(stopping, posture, period):
-            stopping = self._ramped(np.zeros_like(before), before, period)
+            stopping = self._braked(before, period)
             reasons.append("surroundings")
         return stopping, tuple(reasons)
 
@@ -88,6 +88,10 @@ class Guard:
         # All joints change together, so that a movement from rest keeps to its line.
         change = np.abs(velocity - before) / (self.acceleration * period)
         return np.asarray(before + (velocity - before) / max(float(change.max()), 1.0))
+
+    def _braked(self, before: Array, period: float) -> Array:
+        # Each joint as hard as it can: waiting for the slowest one would carry the others on.
+        return np.sign(before) * np.maximum(np.abs(before) - self.acceleration * period, 0.0)
 
     def _able_to_stop_at_limits(self, velocity: Array, posture: Array, period: float) -> Array:
         up = np.maximum(self.upper - posture - self.margin, 0.0)

@@ -100,11 +100,17 @@ def test_too_fast_a_command_is_slowed_along_its_direction():
     assert reasons == ("speed",)
 
 
-def test_a_jump_becomes_a_ramp():
+def test_a_jump_becomes_a_ramp_that_keeps_to_its_line():
     wanted = np.array([1.0, 0.0, -1.0, 0.0, 0.0])
     limited, reasons = GUARD.limit(wanted, np.zeros(JOINTS), np.zeros(JOINTS), PERIOD)
-    assert limited == pytest.approx([0.48, 0.0, -0.08, 0.0, 0.0])
+    assert limited == pytest.approx([0.08, 0.0, -0.08, 0.0, 0.0])
     assert reasons == ("acceleration",)
+
+
+def test_an_arm_that_must_brake_does_so_with_each_joint_as_hard_as_it_can():
+    before, nothing = np.array([1.0, 0.0, -1.0, 0.0, 0.0]), np.full(JOINTS, np.nan)
+    limited, _ = GUARD.limit(nothing, before, np.zeros(JOINTS), PERIOD)
+    assert limited == pytest.approx([0.52, 0.0, -0.92, 0.0, 0.0])
 
 
 def test_at_the_limit_only_the_way_back_is_open():
