@@ -78,6 +78,7 @@ class McapFile:
         """Write what belongs to the run as a whole; it survives every kill."""
         self._writer.start(profile="ros2")
         self._writer.add_metadata("run", dict(metadata))
+        self._writer.add_metadata("field", _geometry(self._field))
         if self._by_clock:
             now = datetime.now(UTC).isoformat(timespec="milliseconds")
             self._writer.add_metadata("clock", {"started": now})
@@ -177,6 +178,16 @@ class _QuickIndex(MessageIndex):
         stream.start_record(Opcode.MESSAGE_INDEX)
         stream.write(content)
         stream.finish_record()  # type: ignore[no-untyped-call]
+
+
+def _geometry(field: VisualField) -> dict[str, str]:
+    """What a reader needs to draw the areas."""
+    x_edges, y_edges = field.edges
+    return {
+        "name": field.name,
+        "x_edges_px": json.dumps(x_edges.tolist()),
+        "y_edges_px": json.dumps(y_edges.tolist()),
+    }
 
 
 @dataclass
