@@ -2,61 +2,16 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
-from numpy.typing import NDArray
 
 from imitation.analysis.claims import Claim, every_claim, rate_claim, value_claim
 from imitation.analysis.figure_style import COLOURS, FAINT, FULL_WIDTH, INK, style
+from imitation.analysis.joint_paths import End, Order, Simulation, end_of, jumps, visits
+from imitation.analysis.joint_space import handle, joint_space, legend, mark_attractors
 from imitation.analysis.statistics import bootstrap
 from imitation.arrays import Array
-from imitation.dynamics import activation, attraction, uniform_noise
-
-Order = NDArray[np.int64]  # attractor visited last at each posture of a path; -1: none yet
-AT_REST = 1e-9  # a path without noise that is slower than this stays where it is [-1..1]
-VIEW = {"elev": 22, "azim": -58}  # from where joint space is seen [degrees]
-
-
-@dataclass(frozen=True)
-class Simulation:
-    """An arm of joints alone, each scaled to [-1, 1], among random attractors."""
-
-    joints: int
-    attractors: int
-    beta: float  # slope of the attraction basins
-    gain: float  # A
-    step: float  # h = dt / tau
-
-    def random_postures(self, rng: np.random.Generator, n: int) -> Array:
-        """Postures anywhere in joint space, (n, joints)."""
-        return rng.uniform(-1.0, 1.0, (n, self.joints))
-
-    def pull(self, x: Array, attractors: Array) -> Array:
-        """f(x) of equally weighted attractors (eq. 2), (joints,)."""
-        return attraction(x, attractors, np.ones(len(attractors)), self.beta)
-
-    def path(
-        self,
-        start: Array,
-        attractors: Array,
-        iterations: int,
-        noise_level: float,
-        rng: np.random.Generator,
-    ) -> Array:
-        """Postures of eq. 1 from `start`, (iterations + 1, joints); joint limits stop the arm."""
-        path = np.empty((iterations + 1, self.joints))
-        path[0] = start
-        for i in range(iterations):
-            noise = uniform_noise(rng, self.joints, noise_level)
-            speed = self.gain * self.pull(path[i], attractors) + noise
-            if not noise_level and np.abs(speed).max() < AT_REST:
-                path[i + 1 :] = path[i]
-                break
-            path[i + 1] = np.clip(path[i] + self.step * speed, -1.0, 1.0)
-        return path
 
 
 @dataclass(frozen=True)
@@ -90,39 +45,6 @@ class Exploration:
     jumps: float
     growing: float
     resamples: int
-
-
-@dataclass(frozen=True)
-class End:
-    """Where a path without noise ended."""
-
-    speed: float  # |f| there [-1..1]
-    distance: float  # to the attractor nearest to it [-1..1]
-    at_nearest: bool  # that is the attractor nearest to the start
-
-
-def end_of(path: Array, attractors: Array, simulation: Simulation) -> End:
-    """Where `path` (n, joints) ended among `attractors`."""
-    before = np.linalg.norm(attractors - path[0], axis=1)
-    after = np.linalg.norm(attractors - path[-1], axis=1)
-    speed = float(np.linalg.norm(simulation.pull(path[-1], attractors)))
-    return End(speed, float(after.min()), bool(before.argmin() == after.argmin()))
-
-
-def visits(path: Array, attractors: Array, beta: float, visited: float) -> Order:
-    """Attractor visited last at each posture of `path` (n, joints), (n,); -1 before the first."""
-    last, order = -1, np.empty(len(path), dtype=np.int64)
-    for i, x in enumerate(path):
-        share = activation(x, attractors, np.ones(len(attractors)), beta)
-        last = int(share.argmax()) if share.max() > visited else last
-        order[i] = last
-    return order
-
-
-def jumps(order: Order) -> int:
-    """How often the attractor visited last became another one."""
-    after = order[order >= 0]
-    return int(np.count_nonzero(np.diff(after)))
 
 
 def fig3a(seeds: Sequence[int], settings: Convergence) -> tuple[Figure, list[Claim]]:
@@ -227,71 +149,12 @@ def _claims_of_exploration(counts: Array, curve: Array, settings: Exploration) -
     ]
 
 
-def _joint_space(figure: Figure, place: tuple[float, float, float, float]) -> Any:
-    """Axes of the first three joints within `place` (left, bottom, width, height)."""
-    axes: Any = figure.add_axes(place, projection="3d")
-    axes.view_init(**VIEW)
-    axes.computed_zorder = False
-    axes.set_box_aspect((1, 1, 1), zoom=0.95)
-    for axis, label in ((axes.xaxis, "joint 1"), (axes.yaxis, "joint 2"), (axes.zaxis, "joint 3")):
-        axis.set_pane_color((1, 1, 1, 0))
-        axis._axinfo["grid"].update(color="#E4E4E4", linewidth=0.4)
-        axis.line.set_linewidth(0.6)
-        axis.set_label_text(label)
-        axis.labelpad = -6
-        axis.set_tick_params(pad=-3)
-        # Labels at the corners would run into each other.
-        axis.set_ticks([-1, -0.5, 0, 0.5, 1], ["", "\u22120.5", "0", "0.5", ""])
-    axes.zaxis.set_tick_params(pad=0)
-    axes.zaxis.labelpad = -3
-    axes.set(xlim=(-1, 1), ylim=(-1, 1), zlim=(-1, 1))
-    return axes
-
-
-def _mark_attractors(axes: Any, attractors: Array) -> None:
-    colours = [COLOURS[i % len(COLOURS)] for i in range(len(attractors))]
-    axes.scatter(
-        *attractors.T[:3],
-        c=colours,
-        s=42,
-        edgecolors=INK,
-        linewidths=0.6,
-        depthshade=False,
-        zorder=9,
-    )
-
-
-def _legend(figure: Figure, *handles: Line2D) -> None:
-    figure.legend(
-        handles=handles,
-        loc="upper center",
-        bbox_to_anchor=(0.27, 1.0),
-        ncols=len(handles),
-        handletextpad=0.2,
-        columnspacing=1.0,
-    )
-
-
-def _handle(marker: str, label: str, colour: str, size: float, filled: bool) -> Line2D:
-    return Line2D(
-        [],
-        [],
-        linestyle="none",
-        marker=marker,
-        label=label,
-        color=INK,
-        markersize=size,
-        markeredgewidth=0.7,
-        markerfacecolor=colour if filled else "none",
-    )
-
-
 def _converging(
     starts: Array, attractors: Array, distances: Array, settings: Convergence
 ) -> Figure:
     with style():
         figure = Figure(figsize=(FULL_WIDTH, 3.3))
-        axes = _joint_space(figure, (0.0, 0.0, 0.5, 0.94))
+        axes = joint_space(figure, (0.0, 0.0, 0.5, 0.94))
         for start in starts:
             path = settings.run(start, attractors)
             apart = np.linalg.norm(attractors - path[-1], axis=1)
@@ -301,12 +164,12 @@ def _converging(
                 axes.scatter(
                     *path[-1][:3], s=26, marker="s", facecolors="none", edgecolors=INK, zorder=10
                 )
-        _mark_attractors(axes, attractors)
-        _legend(
+        mark_attractors(axes, attractors)
+        legend(
             figure,
-            _handle("o", "attractor", FAINT, 6, True),
-            _handle("o", "start", INK, 2.5, True),
-            _handle("s", "end between merged attractors", INK, 5, False),
+            handle("o", "attractor", FAINT, 6, True),
+            handle("o", "start", INK, 2.5, True),
+            handle("s", "end between merged attractors", INK, 5, False),
         )
         _distances_of_ends(figure, distances, settings)
     return figure
@@ -338,7 +201,7 @@ def _distances_of_ends(figure: Figure, distances: Array, settings: Convergence) 
 def _jumping(shown: Exploring, curve: Array, settings: Exploration) -> Figure:
     with style():
         figure = Figure(figsize=(FULL_WIDTH, 3.3))
-        axes = _joint_space(figure, (0.0, 0.0, 0.5, 0.94))
+        axes = joint_space(figure, (0.0, 0.0, 0.5, 0.94))
         changes = np.flatnonzero(np.diff(shown.order)) + 1
         for piece in np.split(np.arange(len(shown.postures)), changes):
             # Each piece reaches to the next one, so that the path has no gaps.
@@ -346,10 +209,10 @@ def _jumping(shown: Exploring, curve: Array, settings: Exploration) -> Figure:
             last = shown.order[piece[0]]
             colour = FAINT if last < 0 else COLOURS[last % len(COLOURS)]
             axes.plot(*part.T[:3], color=colour, linewidth=0.35, alpha=0.75)
-        _mark_attractors(axes, shown.attractors)
-        _legend(
+        mark_attractors(axes, shown.attractors)
+        legend(
             figure,
-            _handle(
+            handle(
                 "o", "attractor (the path has the colour of the one visited last)", FAINT, 6, True
             ),
         )

@@ -8,8 +8,9 @@ import pytest
 from hydra.utils import instantiate
 from omegaconf import OmegaConf
 
-from imitation.analysis.fig3 import Simulation, end_of, fig3a, fig3b, jumps, visits
+from imitation.analysis.fig3 import fig3a, fig3b
 from imitation.analysis.figure_style import save
+from imitation.analysis.joint_paths import Simulation, end_of, jumps, visits
 
 YAML = Path(__file__).parents[2] / "conf" / "figure" / "fig3.yaml"
 ARM = Simulation(joints=2, attractors=2, beta=20.0, gain=1.0, step=0.1)
