@@ -4,12 +4,14 @@ import zlib
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
+from inspect import signature
 from typing import Any
 
 import numpy as np
 from hydra.utils import get_method
 
 from imitation.arrays import Array
+from imitation.controllers.controller import Controller
 from imitation.dynamics import Dynamics
 from imitation.gaze import VisualSpace
 from imitation.perception import Perception
@@ -100,6 +102,20 @@ class Bench:
             if key in node:
                 node[key] = tuple(node[key])
         return Perception(make(node), self.space, field)
+
+    @cached_property
+    def controller(self) -> Controller:
+        """What sets V, A and epsilon in reaching, given what it asks for."""
+        node, body = self.cfg["controller"], self.robot.body
+        offered = {
+            "rng": generator(self.cfg["seed"], "noise"),
+            "acceleration": body.acceleration,
+            "period": self.robot.period,
+        }
+        asked = signature(get_method(node["_target_"])).parameters
+        given = {name: value for name, value in offered.items() if name in asked}
+        controller: Controller = make(_plain(node, "name"), **given)
+        return controller
 
     def empty_map(self) -> VisuoMotorMap:
         """A map that has learned nothing yet."""

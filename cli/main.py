@@ -18,6 +18,12 @@ def learn_map(words: Words = None) -> None:
     raise typer.Exit(launch("learn-map", words or []))
 
 
+@app.command(context_settings=HYDRA)
+def reach(words: Words = None) -> None:
+    """Reach seen targets with a learned map."""
+    raise typer.Exit(launch("reach", words or []))
+
+
 @app.callback()
 def imitate() -> None:
     """A bench for experiments in emergent imitation."""

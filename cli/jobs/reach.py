@@ -1,0 +1,139 @@
+"""imitate reach: reach seen targets with a learned map."""
+
+from pathlib import Path
+from typing import Any
+
+import hydra
+import numpy as np
+from omegaconf import DictConfig
+
+from cli.build import generator
+from cli.errors import UserError
+from cli.job import job
+from cli.run import Outcome, Run
+from imitation.analysis.metrics import ReachMetrics
+from imitation.arrays import Array
+from imitation.hull import depth_inside
+from imitation.recording.map_file import LearnedMap, differences, fingerprint, load_map
+from imitation.stages.reach import Reaching, Trial, reach
+from imitation.stages.trials import from_random_starts, random_targets
+
+OF_THE_JOB = ("required", "inset", "border", "force")  # keys of reach: that the stage needs not
+CONTROLS = ("noise", "nearest")  # nothing is asked of them
+
+
+@hydra.main(version_base="1.3", config_path="pkg://conf", config_name="reach")
+def main(cfg: DictConfig) -> int:
+    """One job."""
+    return job("reach", cfg, reach_targets)
+
+
+def reach_targets(run: Run) -> Outcome:
+    """Reach as many targets as asked for."""
+    bench, cfg, settings = run.bench, run.cfg, run.cfg["reach"]
+    stored = the_map(run)
+    learned, name = stored.map, cfg["controller"]["name"]
+    trials = trials_of(run, stored)
+    reaching = Reaching(**{key: settings[key] for key in settings if key not in OF_THE_JOB})
+    holding = name not in (*CONTROLS, "yuragi")
+    metrics = ReachMetrics(
+        learned,
+        stored.outline,
+        bench.robot.body,
+        settings["border"],
+        settings["hold_frames"],
+        holding,
+    )
+    perception = bench.perception(learned.field)
+    samples = reach(
+        bench.robot, perception, learned, bench.dynamics, bench.controller, trials, reaching
+    )
+    run.record(samples, learned.field, metrics.add)
+    return outcome(metrics.result(name), holding, required(settings["required"], name))
+
+
+def the_map(run: Run) -> LearnedMap:
+    """The map that `map=` names, if it is this body's."""
+    named = Path(run.cfg["map"]).expanduser()
+    stored = load_map(named)
+    run.uses("map", named / "map.npz" if named.is_dir() else named)
+    bench, field = run.bench, stored.map.field
+    present = fingerprint(bench.robot.body, field, bench.space)
+    if found := differences(stored.fingerprint, present):
+        raise UserError(f"map={named} is refused: {'; '.join(found)}")
+    asked = run.cfg["field"]
+    if asked is not None and asked != field.name:
+        raise UserError(f"field={asked}: the map was learned with {field.name}; leave field= out")
+    return stored
+
+
+def trials_of(run: Run, stored: LearnedMap) -> list[Trial]:
+    """The trials that the configuration asks for."""
+    cfg, bench = run.cfg, run.bench
+    targets_rng, starts_rng = generator(cfg["seed"], "targets"), generator(cfg["seed"], "starts")
+    count, inset = cfg["trials"], cfg["reach"]["inset"]
+    if cfg["area"] is not None:
+        targets = [_learned_place(stored, cfg["area"])] * count
+    elif cfg["target"] == "random":
+        targets = random_targets(stored.outline, bench.space.size, inset, count, targets_rng)
+    else:
+        targets = [np.array(cfg["target"], dtype=float)] * count
+    for target in targets:
+        if depth_inside(stored.outline, target) < 0 and not cfg["reach"]["force"]:
+            raise UserError(
+                f"target [{target[0]:g}, {target[1]:g}] px lies outside the learned region "
+                f"({_extent(stored.outline)}); type reach.force=true to reach for it all the same"
+            )
+    return from_random_starts(targets, bench.guided, starts_rng)
+
+
+def required(asked: float | None, controller: str) -> float:
+    """The success rate below which the exit code is 1."""
+    if asked is not None:
+        return asked
+    return 0.0 if controller in CONTROLS else 1.0
+
+
+def outcome(metrics: dict[str, Any], holding: bool, wanted: float) -> Outcome:
+    """What is told of the trials."""
+    rate, count = metrics["success_rate"], len(metrics["trials"])
+    word = "held" if holding else "reached"
+    complaint = f"{word} {rate:.0%} of the targets, asked were {wanted:.0%} (reach.required)"
+    return Outcome(
+        metrics=metrics,
+        rows=[
+            ("controller", metrics["controller"]),
+            ("trials", str(count)),
+            ("reached", _share(metrics["reached_rate"])),
+            ("held", _share(metrics["held_rate"])),
+            ("time to success", _seconds(metrics["median_time_s"])),
+        ],
+        next="imitate view {run}",
+        complaint=complaint if rate < wanted else None,
+    )
+
+
+def _learned_place(stored: LearnedMap, area: list[int]) -> Array:
+    learned = stored.map
+    rows, columns = learned.field.shape
+    if not (0 <= area[0] < rows and 0 <= area[1] < columns):
+        raise UserError(f"area={area}: rows are 0..{rows - 1}, columns 0..{columns - 1}")
+    places = learned.places[area[0], area[1]]
+    known = places[~np.isnan(places[:, 0])]
+    if not len(known):
+        areas = ", ".join(str(list(map(int, one))) for one in np.argwhere(learned.learned))
+        raise UserError(f"area={area} is not learned in this map; learned are {areas}")
+    return np.asarray(known[0])
+
+
+def _extent(outline: Array) -> str:
+    low, high = outline.min(axis=0), outline.max(axis=0)
+    return f"x {low[0]:.0f}..{high[0]:.0f}, y {low[1]:.0f}..{high[1]:.0f}"
+
+
+def _share(rate: float) -> str:
+    return f"{rate:.0%}"
+
+
+def _seconds(value: float | None) -> str:
+    return "none" if value is None else f"{value:.2f} s in the median"

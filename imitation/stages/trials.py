@@ -1,0 +1,38 @@
+"""Where trials of reaching begin and what they reach for."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from imitation.arrays import Array
+from imitation.hull import clip_outline, uniform_inside
+from imitation.stages.reach import Trial
+
+
+def random_targets(
+    outline: Array, size: tuple[int, int], inset: float, count: int, rng: np.random.Generator
+) -> list[Array]:
+    """Targets drawn uniformly where the hand was seen in learning, each (2,) [px].
+
+    Args:
+        outline: Border of the places where the hand was seen, (n, 2) [px].
+        size: Width and height of the visual space [px].
+        inset: Targets keep this far from the image's edges, where the hand is cut off [px].
+        count: How many.
+        rng: Draws them.
+    """
+    low, high = np.full(2, inset), np.array(size) - inset
+    within = clip_outline(outline, low, high)
+    if len(within) < 3:
+        raise ValueError("the map's learned region is too small to draw targets from")
+    return [uniform_inside(within, rng) for _ in range(count)]
+
+
+def from_random_starts(
+    targets: Sequence[Array], guided: Array, rng: np.random.Generator
+) -> list[Trial]:
+    """A trial for each target, from a random mixture of the guided postures (n, n_joints) [rad]."""
+    mixtures = rng.dirichlet(np.ones(len(guided)), len(targets))
+    return [
+        Trial(target, mixture @ guided) for target, mixture in zip(targets, mixtures, strict=True)
+    ]
