@@ -5,10 +5,13 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import pybullet
-import pybullet_data
 
 from imitation.arrays import Array, Image
+from imitation.robots.bullet.silence import silence
+
+with silence():
+    import pybullet
+    import pybullet_data
 
 WHITE = 0xFFFFFFFF  # what TinyRenderer leaves where nothing is drawn
 FLAT_LIGHT = {
