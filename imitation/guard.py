@@ -80,7 +80,7 @@ class Guard:
         if not np.allclose(stopping, ramped, rtol=0, atol=1e-9):
             reasons.append("joint limit")
         if self._too_near(stopping, posture, period):
-            stopping = self._braked(before, period)
+            stopping = self._braked_clear(before, posture, period)
             reasons.append("surroundings")
         return stopping, tuple(reasons)
 
@@ -105,16 +105,33 @@ class Guard:
     def _too_near(self, velocity: Array, posture: Array, period: float) -> bool:
         if self.surroundings is None:
             return False
-        way = np.vstack((posture, self._way_to_rest(velocity, posture, period)))
-        now, *then = self.surroundings.clearance(way)
+        now = float(self.surroundings.clearance(posture[None])[0])
         # From too near, the way out is open.
-        return bool(min(then) < min(self.least_clearance, now))
+        enough = min(self.least_clearance, now)
+        ways = (self._together_to_rest, self._each_to_rest)
+        return not any(self._least(way(velocity, posture, period)) >= enough for way in ways)
 
-    def _way_to_rest(self, velocity: Array, posture: Array, period: float) -> Array:
-        """Postures after this period and each one after it when braking follows, (n, n_joints).
+    def _braked_clear(self, before: Array, posture: Array, period: float) -> Array:
+        """Of the two ways to brake, the first step of the one that keeps more clearance."""
+        step = self.acceleration * period
+        together = before * max(0.0, 1.0 - 1.0 / max(float(np.max(np.abs(before) / step)), 1.0))
+        each = self._braked(before, period)
+        along = self._least(self._together_to_rest(together, posture, period))
+        apart = self._least(self._each_to_rest(each, posture, period))
+        return together if along >= apart else each
 
-        Joints come to rest one after the other, so the way may lead nearer than its end.
-        """
+    def _least(self, way: Array) -> float:
+        assert self.surroundings is not None
+        return float(self.surroundings.clearance(way).min())
+
+    def _together_to_rest(self, velocity: Array, posture: Array, period: float) -> Array:
+        """Postures of the coming periods when all joints brake in proportion, (n, n_joints)."""
+        lasting = max(float(np.max(np.abs(velocity) / (self.acceleration * period))), 1.0)
+        share = np.maximum(1.0 - np.arange(np.ceil(lasting)) / lasting, 0.0)
+        return np.asarray(posture + np.cumsum(share)[:, None] * velocity * period)
+
+    def _each_to_rest(self, velocity: Array, posture: Array, period: float) -> Array:
+        """The same when each joint brakes as hard as it can, one coming to rest after the other."""
         step = self.acceleration * period
         periods = np.arange(max(np.ceil(np.max(np.abs(velocity) / step)), 1))
         speeds = np.maximum(np.abs(velocity) - periods[:, None] * step, 0.0)

@@ -6,13 +6,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from imitation.arrays import Array
+from imitation.deciding import braking, drawn_by, one_attractor
 from imitation.dynamics import Dynamics, able_to_stop, homeostatic
 from imitation.pairing import PostureHistory
 from imitation.perception import Perception
 from imitation.robot import Command, Observation, Robot
 from imitation.sample import Decision, Event, Sample
 from imitation.stages.babbling import Babbling, Goal
-from imitation.stages.deciding import braking, drawn_by, one_attractor
 from imitation.visual_field import Area
 from imitation.visuo_motor_map import VisuoMotorMap
 

@@ -1,0 +1,46 @@
+"""The control that uses one learned posture: the one seen nearest to the target."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from imitation.arrays import Array
+from imitation.deciding import drawn_by
+from imitation.dynamics import Dynamics, homeostatic
+from imitation.perception import Percept
+from imitation.robot import Observation
+from imitation.sample import Decision
+from imitation.visuo_motor_map import VisuoMotorMap
+
+
+@dataclass
+class Nearest:
+    """The homeostatic controller on the single area learned nearest to the target."""
+
+    keeps_correcting = True
+
+    def begin(self, learned: VisuoMotorMap, target: Array) -> None:
+        """A new trial towards `target` (2,) [px]."""
+        self._learned = learned
+        off = np.linalg.norm(learned.places - target, axis=-1)
+        nearest = np.where(np.isnan(off), np.inf, off).min(axis=-1)
+        self._selection = np.zeros(learned.field.shape)
+        self._selection.flat[nearest.argmin()] = 1.0
+
+    def decide(
+        self, seen: Observation, percept: Percept, target: Array, dynamics: Dynamics
+    ) -> Decision:
+        """Where the arm is drawn now."""
+        gain, level = homeostatic()
+        attractors = self._learned.attractors(self._selection, seen.posture)
+        off = float("nan") if percept.hand is None else np.linalg.norm(percept.hand - target)
+        return drawn_by(
+            attractors,
+            self._selection,
+            seen.posture,
+            dynamics,
+            gain,
+            level,
+            target=target,
+            distance=float(off),
+        )

@@ -1,0 +1,136 @@
+"""`map.npz`: a visuo-motor map with the fingerprint of the body that learned it."""
+
+import json
+import zipfile
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from imitation.arrays import Array
+from imitation.gaze import VisualSpace
+from imitation.robot import Body
+from imitation.visual_field import VisualField
+from imitation.visuo_motor_map import Learning, VisuoMotorMap
+
+VERSION = 1  # of the file's layout
+MAX_BYTES = 64 * 2**20  # no map comes near; a larger file is none
+
+
+def fingerprint(body: Body, field: VisualField, space: VisualSpace) -> dict[str, Any]:
+    """What must be the same where the map is used: arm, limits, field, visual space."""
+    return {
+        "arm": body.name,
+        "joints": list(body.joint_names),
+        "lower_rad": body.lower.tolist(),
+        "upper_rad": body.upper.tolist(),
+        "field": {
+            "name": field.name,
+            "rows": field.rows,
+            "columns": field.columns,
+            "left_px": field.left,
+        },
+        "visual_space": {
+            "size_px": list(space.size),
+            "focal_px": space.focal,
+            "centre_px": list(space.centre),
+        },
+    }
+
+
+@dataclass(frozen=True)
+class LearnedMap:
+    """A map as it was saved."""
+
+    map: VisuoMotorMap
+    outline: Array  # convex hull of the places where the hand was seen, (n, 2) [px]
+    fingerprint: dict[str, Any]
+
+
+def save_map(path: Path, learned: VisuoMotorMap, outline: Array, told: dict[str, Any]) -> None:
+    """Write a map; `told` is the body's fingerprint."""
+    facts = {
+        "version": VERSION,
+        "fingerprint": told,
+        "learning": learned.learning.__dict__,
+        "neurons": learned.neurons,
+    }
+    np.savez(
+        path,
+        postures=learned.postures,
+        places=learned.places,
+        visits=learned.visits,
+        outline=outline,
+        facts=np.array(json.dumps(facts)),
+    )
+
+
+def load_map(path: Path) -> LearnedMap:
+    """Read a map file, or the one in a run folder.
+
+    Raises:
+        ValueError: There is none, or it is no map; the message says what to do.
+    """
+    file = path / "map.npz" if path.is_dir() else path
+    if not file.is_file():
+        raise ValueError(f"no map at {file}; learn one with: imitate learn-map")
+    if file.stat().st_size > MAX_BYTES:
+        raise ValueError(f"{file} is no map of this program: it is too large")
+    try:
+        with np.load(file, allow_pickle=False) as stored:
+            facts = json.loads(str(stored["facts"]))
+            arrays = {name: stored[name] for name in ("postures", "places", "visits", "outline")}
+        return _rebuilt(facts, arrays)
+    except (OSError, KeyError, TypeError, ValueError, EOFError, zipfile.BadZipFile) as error:
+        reason = str(error).splitlines()[0][:120] if str(error) else type(error).__name__
+        raise ValueError(f"{file} is no map of this program, or is damaged ({reason})") from error
+
+
+def _rebuilt(facts: dict[str, Any], arrays: dict[str, Array]) -> LearnedMap:
+    if facts["version"] != VERSION:
+        raise ValueError(f"map version {facts['version']}, this program reads {VERSION}")
+    told = facts["fingerprint"]
+    shape, space = told["field"], told["visual_space"]
+    width, height = space["size_px"]
+    field = VisualField(
+        name=shape["name"],
+        size=(width, height),
+        rows=shape["rows"],
+        columns=shape["columns"],
+        left=shape["left_px"],
+    )
+    learned = VisuoMotorMap(
+        field,
+        np.array(told["lower_rad"]),
+        np.array(told["upper_rad"]),
+        int(facts["neurons"]),
+        Learning(**facts["learning"]),
+    )
+    for name in ("postures", "places", "visits"):
+        wanted, got = getattr(learned, name), arrays[name]
+        if got.shape != wanted.shape or got.dtype.kind not in "fi":
+            raise ValueError(f"{name} has shape {got.shape}, wanted {wanted.shape}")
+        setattr(learned, name, got.astype(wanted.dtype))
+    return LearnedMap(learned, arrays["outline"], told)
+
+
+def differences(learned: dict[str, Any], present: dict[str, Any]) -> list[str]:
+    """What a map's fingerprint and the present body do not share, in words."""
+    found = []
+    if learned["arm"] != present["arm"]:
+        found.append(f"it was learned on the arm {learned['arm']}, this one is {present['arm']}")
+    elif learned["joints"] != present["joints"]:
+        found.append(f"it has the joints {learned['joints']}, this arm has {present['joints']}")
+    else:
+        found += [
+            f"its joint limits ({key}) are not this arm's"
+            for key in ("lower_rad", "upper_rad")
+            if not np.allclose(learned[key], present[key], rtol=0, atol=1e-6)
+        ]
+    if learned["visual_space"] != present["visual_space"]:
+        found.append(
+            f"its visual space is {learned['visual_space']}, this camera's is "
+            f"{present['visual_space']}"
+        )
+    return found
