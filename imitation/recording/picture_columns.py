@@ -1,0 +1,134 @@
+"""What a batch of recorded steps shows: numbers by topic, ready to be drawn as columns."""
+
+import io
+import json
+from collections import defaultdict
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from imitation.arrays import Array
+from imitation.recording import messages
+from imitation.recording.mcap_recording import Recording
+from imitation.recording.step_messages import Message, Topic
+
+Times = NDArray[np.int64]  # since the start of the run [ns]
+
+
+@dataclass(frozen=True)
+class Grid:
+    """The areas of the visual field on the image."""
+
+    x_edges: Array  # borders of the columns [px]
+    y_edges: Array  # borders of the rows [px]
+
+    @classmethod
+    def of(cls, recording: Recording) -> "Grid":
+        """The visual field that a recording was made with."""
+        told = recording.metadata["field"]
+        return cls(
+            np.array(json.loads(told["x_edges_px"])), np.array(json.loads(told["y_edges_px"]))
+        )
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Rows and columns."""
+        return len(self.y_edges) - 1, len(self.x_edges) - 1
+
+    @cached_property
+    def lines(self) -> list[list[tuple[float, float]]]:
+        """The borders between the areas, each from end to end [px]."""
+        (left, *_, right), (top, *_, bottom) = self.x_edges.tolist(), self.y_edges.tolist()
+        upright = [[(x, top), (x, bottom)] for x in self.x_edges.tolist()]
+        return upright + [[(left, y), (right, y)] for y in self.y_edges.tolist()]
+
+    @cached_property
+    def tile(self) -> int:
+        """Side of the largest square that tiles every area [px]."""
+        edges = np.concatenate((self.x_edges, self.y_edges)).round().astype(int)
+        return int(np.gcd.reduce(edges))
+
+    def tiled(self, values: Array) -> Array:
+        """Values of the areas (n, rows, columns) as pictures of tiles, (n, height, width)."""
+        heights = (np.diff(self.y_edges) / self.tile).round().astype(int)
+        widths = (np.diff(self.x_edges) / self.tile).round().astype(int)
+        return values.repeat(heights, axis=1).repeat(widths, axis=2)
+
+
+class Batch:
+    """Decoded messages of some steps, by topic.
+
+    Args:
+        told: The messages.
+        topics: Their types.
+    """
+
+    def __init__(self, told: Iterable[Message], topics: dict[str, Topic]) -> None:
+        self._times: defaultdict[str, list[int]] = defaultdict(list)
+        self._messages: defaultdict[str, list[Any]] = defaultdict(list)
+        for topic, time_ns, data in told:
+            self._times[topic].append(time_ns)
+            self._messages[topic].append(messages.decoded(data, topics[topic].type))
+
+    def __contains__(self, topic: str) -> bool:
+        return topic in self._times
+
+    def times(self, topic: str) -> Times:
+        """When the messages of a topic were said, (n,) [ns]."""
+        return np.array(self._times[topic], dtype=np.int64)
+
+    def messages(self, topic: str) -> Sequence[Any]:
+        """The messages of a topic."""
+        return self._messages[topic]
+
+    def vectors(self, topic: str, part: str = "data") -> Array:
+        """A vector of each message, (n, length)."""
+        return np.stack([getattr(message, part) for message in self.messages(topic)])
+
+    def pixels(self) -> NDArray[np.uint8]:
+        """Pixels of the frames, (n, height * width * 3)."""
+        return np.stack([message.data for message in self.messages("/camera/image")])
+
+    def grids(self, topic: str, grid: Grid) -> Array:
+        """Values of the areas, (n, rows, columns); activation is that of an area's attractors."""
+        if topic != "/attractors/activation":
+            return self.vectors(topic).reshape(-1, *grid.shape)
+        areas = np.zeros((len(self._times[topic]), *grid.shape))
+        attractors = zip(self.messages("/attractors/index"), self.messages(topic), strict=True)
+        for area, (index, activation) in zip(areas, attractors, strict=True):
+            row, column, _ = messages.array(index).T
+            in_map = row >= 0
+            np.add.at(area, (row[in_map], column[in_map]), activation.data[in_map])
+        return areas
+
+    def captured(self) -> Times:
+        """When the frame that each step decided on was captured, (n,) [ns]."""
+        used = (messages.time_of(message) for message in self.messages("/camera/used"))
+        return np.fromiter(used, dtype=np.int64)
+
+    def places(self, topic: str) -> tuple[Array, list[int]]:
+        """Places (x, y) [px] that were told, and how many (0 or 1) at each step."""
+        points = [message.point for message in self.messages(topic)]
+        places = np.array([(point.x, point.y) for point in points]).reshape(-1, 2)
+        told = np.isin(self.times("/camera/used"), self.times(topic))
+        return places, told.astype(int).tolist()
+
+    def learned(self) -> dict[int, tuple[float, float]]:
+        """Where the hand was seen when an area was learned [px], by time [ns]."""
+        found = {}
+        for time_ns, message in zip(self._times["/events"], self.messages("/events"), strict=True):
+            if message.name == "learned":
+                _, facts = messages.split_log(message)
+                found[time_ns] = tuple(facts["place_px"])
+        return found
+
+
+def learned_places(map_npz: bytes) -> Array:
+    """Where the hand was seen in each learned area, (n, 2) [px], as a map file tells."""
+    with np.load(io.BytesIO(map_npz)) as saved:
+        places = saved["places"].reshape(-1, 2)
+    return np.asarray(places[np.isfinite(places).all(axis=1)])
