@@ -77,7 +77,7 @@ class Bench:
     @property
     def period_ns(self) -> int:
         """The control period [ns]."""
-        return round(self.cfg["period"] * SECOND)
+        return int(round(self.cfg["period"] * SECOND))
 
     @property
     def guided(self) -> Array:

@@ -1,12 +1,28 @@
 """Checks a composed configuration before anything is made of it."""
 
-from typing import Any
+from collections.abc import Iterator, Mapping
+from inspect import Parameter, signature
+from pydoc import locate
+from typing import Any, get_type_hints
 
 from omegaconf import DictConfig, OmegaConf
 from omegaconf.errors import MissingMandatoryValue, OmegaConfBaseException
+from pydantic import BaseModel, ConfigDict, ValidationError, create_model
 
 from cli.build import Config
-from cli.errors import UserError
+from cli.errors import UserError, nearest
+from cli.keys import comments
+from cli.schema import COMMANDS, RANGES, Target
+
+SUPPLIED = {"arm", "space", "rng", "acceleration", "period"}  # given by cli/build.py when asked for
+
+PYDANTIC = {
+    "Input should be ": "",
+    "List should have ": "a list of ",
+    " after validation": "",
+    "a valid integer": "a whole number",
+    "a valid ": "a ",
+}
 
 
 def checked(command: str, composed: DictConfig) -> Config:
@@ -18,9 +34,105 @@ def checked(command: str, composed: DictConfig) -> Config:
     try:
         cfg: Any = OmegaConf.to_container(composed, resolve=True, throw_on_missing=True)
     except MissingMandatoryValue as error:
-        key = error.full_key or "a value"
-        raise UserError(f"imitate {command} needs {key}: type {key}=...") from None
+        raise UserError(missing(command, str(error.full_key))) from None
     except OmegaConfBaseException as error:
         raise UserError(f"configuration: {str(error).splitlines()[0]}") from None
+    try:
+        model = COMMANDS[command].model_validate(cfg)
+        for path, target in targets(model, ()):
+            check_target(target, path, cfg)
+    except ValidationError as error:
+        raise UserError(in_words(command, error, cfg, ())) from None
     plain: Config = cfg
     return plain
+
+
+def missing(command: str, key: str) -> str:
+    """That a key must be given."""
+    told = comments(command).get(key, "")
+    return f"{command} needs {key}={f' ({told})' if told else ''}; type {key}={key.upper()}"
+
+
+def targets(model: BaseModel, path: tuple[str, ...]) -> Iterator[tuple[tuple[str, ...], Target]]:
+    """Every node with a `_target_` below a checked model, and where it stands."""
+    for name in type(model).model_fields:
+        value = getattr(model, name)
+        if isinstance(value, Target):
+            yield (*path, name), value
+        elif isinstance(value, BaseModel):
+            yield from targets(value, (*path, name))
+
+
+def check_target(node: Target, path: tuple[str, ...], cfg: Config) -> None:
+    """Check a node's keys and values against the parameters of its `_target_`."""
+    dotted = ".".join(path)
+    given = dict(node.model_extra or {})
+    name = given.pop("_target_", None)
+    target: Any = locate(str(name))
+    if not callable(target):
+        raise UserError(f"{dotted}._target_={name}: nothing of that name can be called")
+    parameters = signature(target).parameters
+    hints = get_type_hints(target)
+    fields: dict[str, Any] = {}
+    for parameter in parameters.values():
+        if parameter.name in given or _must_be_given(parameter):
+            fields[parameter.name] = (_kind(parameter.name, hints), ...)
+    model = create_model(dotted, __config__=ConfigDict(extra="forbid", strict=True), **fields)
+    try:
+        model.model_validate(given)
+    except ValidationError as error:
+        raise UserError(in_words("", error, cfg, path, list(parameters))) from None
+
+
+def in_words(
+    command: str, error: ValidationError, cfg: Config, path: tuple[str, ...], valid: Any = ()
+) -> str:
+    """The first thing wrong, in one line."""
+    first = error.errors()[0]
+    key, value = _find(cfg, (*path, *first["loc"]))
+    same = [one for one in error.errors() if _find(cfg, (*path, *one["loc"]))[0] == key]
+    if first["type"] == "extra_forbidden":
+        above, _, _ = key.rpartition(".")
+        inside = f"{above}." if above else ""
+        known = [inside + name for name in valid] if valid else comments(command)
+        return f"unknown key {key}{nearest(key, known)}"
+    if first["type"] == "missing":
+        return f"key {'.'.join(map(str, (*path, *first['loc'])))} is missing from the configuration"
+    wanted = " or ".join(dict.fromkeys(_wanted(one) for one in same))
+    told = comments(command).get(key, "") if command else ""
+    return f"{key}={_short(value)}: should be {wanted}{f' ({told})' if told else ''}"
+
+
+def _must_be_given(parameter: Parameter) -> bool:
+    return parameter.default is Parameter.empty and parameter.name not in SUPPLIED
+
+
+def _kind(name: str, hints: Mapping[str, Any]) -> Any:
+    """What a parameter may hold; anything when neither its name nor its type tells."""
+    if name in RANGES:
+        return RANGES[name]
+    return hints[name] if hints.get(name) in (str, int, float, bool) else Any
+
+
+def _find(cfg: Any, loc: tuple[int | str, ...]) -> tuple[str, Any]:
+    """The part of `loc` that stands in `cfg`, dotted, and its value; the rest are Pydantic's."""
+    found = ""
+    for part in loc:
+        inside = isinstance(cfg, dict) and part in cfg
+        if not inside and not (isinstance(cfg, list) and isinstance(part, int) and part < len(cfg)):
+            break
+        found += f"[{part}]" if isinstance(part, int) else f".{part}"
+        cfg = cfg[part]
+    return found.strip("."), cfg
+
+
+def _wanted(one: Any) -> str:
+    told = str(one["msg"])
+    for theirs, ours in PYDANTIC.items():
+        told = told.replace(theirs, ours)
+    return told
+
+
+def _short(value: Any) -> str:
+    text = str(value).replace("'", "")
+    return text if len(text) <= 60 else f"{text[:57]}..."

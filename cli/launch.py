@@ -40,7 +40,7 @@ def _run(command: str, words: Words) -> int:
             return _sweep(command, words, main)
         _call(main, [*words.overrides, *QUIET, *words.flags])
     except Exception as error:
-        raise trouble.as_user_error(command, words, error) from error
+        raise trouble.as_user_error(command, error) from error
     return max(job.codes, default=DONE)
 
 

@@ -1,32 +1,71 @@
 """The program `imitate`: one thin command for each stage."""
 
+import sys
 from typing import Annotated, Any
 
 import typer
+from typer.core import TyperGroup
+from typer.exceptions import TyperException
 
+from cli.errors import BAD_INPUT, say
+from cli.help import StageCommand, complete
 from cli.launch import launch
 
-app = typer.Typer(no_args_is_help=True, rich_markup_mode=None, pretty_exceptions_enable=False)
 
-HYDRA = {"allow_extra_args": True, "ignore_unknown_options": True}
-Words = Annotated[list[str] | None, typer.Argument(metavar="[KEY=VALUE]... [-m]")]
+class OneLineErrors(TyperGroup):
+    """Commands whose errors are one line, instead of Typer's box."""
+
+    def main(self, *args: Any, **more: Any) -> Any:
+        """Run the program and exit."""
+        more["standalone_mode"] = False
+        try:
+            code = super().main(*args, **more)
+        except TyperException as error:
+            say(f"{error.format_message()} See imitate --help")
+            code = BAD_INPUT
+        sys.exit(code)
 
 
-@app.command(context_settings=HYDRA)
+app = typer.Typer(cls=OneLineErrors, rich_markup_mode=None, pretty_exceptions_enable=False)
+
+STAGE: dict[str, Any] = {
+    "cls": StageCommand,
+    "context_settings": {"allow_extra_args": True, "ignore_unknown_options": True},
+}
+Words = Annotated[
+    list[str] | None,
+    typer.Argument(metavar="KEY=VALUE", help="See below.", autocompletion=complete),
+]
+
+
+@app.callback(invoke_without_command=True)
+def imitate(
+    context: typer.Context,
+    version: Annotated[bool, typer.Option("--version", help="Show the version.")] = False,
+) -> None:
+    """A bench for experiments in emergent imitation.
+
+    A robot arm learns by moving and watching itself which postures bring its hand where it sees
+    it; with that map it reaches what it sees. Every run is a recording in data/runs/.
+    """
+    if version:
+        from cli.provenance import program_version
+
+        typer.echo(f"imitate {program_version()}")
+    elif context.invoked_subcommand is None:
+        typer.echo(context.get_help())
+
+
+@app.command(**STAGE)
 def learn_map(words: Words = None) -> None:
     """Babble, watch the own hand, and learn which postures bring it where."""
     raise typer.Exit(launch("learn-map", words or []))
 
 
-@app.command(context_settings=HYDRA)
+@app.command(**STAGE)
 def reach(words: Words = None) -> None:
     """Reach seen targets with a learned map."""
     raise typer.Exit(launch("reach", words or []))
-
-
-@app.callback()
-def imitate() -> None:
-    """A bench for experiments in emergent imitation."""
 
 
 def main() -> Any:

@@ -1,11 +1,89 @@
 """Says in one line what Hydra found wrong."""
 
-from cli.errors import UserError
-from cli.words import Words
+import re
+
+import yaml
+from hydra import compose, initialize_config_module
+from hydra.errors import (
+    ConfigCompositionException,
+    HydraException,
+    MissingConfigException,
+    OverrideParseException,
+    SearchPathException,
+)
+from omegaconf import OmegaConf
+from omegaconf.errors import OmegaConfBaseException
+
+from cli.check import missing
+from cli.errors import UserError, nearest
+from cli.keys import groups_of
+
+BRACKETS = "put values that hold brackets or spaces in quotes, such as 'target=[80,60]'"
 
 
-def as_user_error(command: str, words: Words, error: Exception) -> Exception:
-    """The error to show instead of Hydra's."""
-    if isinstance(error, UserError):
-        return error
+def as_user_error(command: str, error: Exception) -> Exception:
+    """The error to show instead of Hydra's; a bug of this program as it is."""
+    if isinstance(error, MissingConfigException):
+        return UserError(_no_such_choice(command, error))
+    if isinstance(error, OverrideParseException):
+        return UserError(f"{error.override} cannot be read: {BRACKETS}")
+    if isinstance(error, SearchPathException):
+        return UserError(f"--config-dir: {_first_line(error)}")
+    if isinstance(error, ConfigCompositionException):
+        return UserError(_not_composed(command, error))
+    if isinstance(error, yaml.YAMLError):
+        return UserError(_bad_yaml(error))
+    if isinstance(error, HydraException | OmegaConfBaseException):
+        return UserError(_first_line(error))
     return error
+
+
+def keys(command: str) -> list[str]:
+    """Every key of a command's configuration, dotted, and its groups."""
+    with initialize_config_module("conf", version_base="1.3"):
+        cfg = compose(command.replace("-", "_"))
+    return [*groups_of(command), *_dotted(OmegaConf.to_container(cfg), "")]
+
+
+def _dotted(node: object, prefix: str) -> list[str]:
+    if not isinstance(node, dict):
+        return []
+    found = []
+    for key, value in node.items():
+        found += [f"{prefix}{key}", *_dotted(value, f"{prefix}{key}.")]
+    return found
+
+
+def _no_such_choice(command: str, error: MissingConfigException) -> str:
+    group, _, choice = (error.missing_cfg_file or "").rpartition("/")
+    options = groups_of(command).get(group) or list(error.options or [])
+    if not options:
+        return _first_line(error)
+    return (
+        f"{group}={choice}: there is no such {group}{nearest(choice, options) or ';'} "
+        f"choose from {', '.join(options)}"
+    )
+
+
+def _not_composed(command: str, error: ConfigCompositionException) -> str:
+    text = str(error)
+    if several := re.match(r"Ambiguous value for argument '(.*)'", text):
+        return f"{several[1]} is several values: add -m to sweep over them, or write key=[a,b]"
+    if mandatory := re.search(r"You must specify '([\w/]+)'", text):
+        return missing(command, mandatory[1])
+    unknown = re.match(r"Could not (?:override|append to config|delete).*?'(\S+?)'", text)
+    if unknown:
+        return f"unknown key {unknown[1]}{nearest(unknown[1], keys(command))}"
+    cause = error.__cause__
+    return f"{_first_line(error)}{f': {_first_line(cause)}' if cause else ''}"
+
+
+def _bad_yaml(error: yaml.YAMLError) -> str:
+    if not isinstance(error, yaml.MarkedYAMLError) or error.problem_mark is None:
+        return f"a YAML file cannot be read: {_first_line(error)}"
+    mark = error.problem_mark
+    return f"{mark.name}, line {mark.line + 1}: not valid YAML: {error.problem}"
+
+
+def _first_line(error: BaseException) -> str:
+    return (str(error).strip().splitlines() or [type(error).__name__])[0]

@@ -61,9 +61,10 @@ def the_map(run: Run) -> LearnedMap:
     present = fingerprint(bench.robot.body, field, bench.space)
     if found := differences(stored.fingerprint, present):
         raise UserError(f"map={named} is refused: {'; '.join(found)}")
-    asked = run.cfg["field"]
-    if asked is not None and asked != field.name:
-        raise UserError(f"field={asked}: the map was learned with {field.name}; leave field= out")
+    asked = run.cfg.get("field")
+    if asked is not None and asked["name"] != field.name:
+        name = asked["name"]
+        raise UserError(f"field={name}: the map was learned with {field.name}; leave field= out")
     return stored
 
 

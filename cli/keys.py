@@ -1,0 +1,81 @@
+"""What can be typed: the groups of conf/, their choices, and what its comments say of each key."""
+
+import re
+from functools import cache
+from pathlib import Path
+
+CONF = Path(__file__).parents[1] / "conf"
+LINE = re.compile(r"^(?P<indent> *)(?P<key>\w+):(?P<value>[^#]*)(?:# (?P<comment>.*))?$")
+INCLUDED = re.compile(r"^  - (\w+)$", re.MULTILINE)
+
+
+@cache
+def groups() -> dict[str, list[str]]:
+    """Every group with its choices."""
+    found = {}
+    for folder in sorted(path for path in CONF.iterdir() if path.is_dir()):
+        choices = _choices(folder)
+        if choices:
+            found[folder.name] = choices
+    return found
+
+
+def groups_of(command: str) -> dict[str, list[str]]:
+    """The groups that a command's configuration chooses from."""
+    text = (CONF / f"{command.replace('-', '_')}.yaml").read_text()
+    named = re.findall(r"^  - (?:optional )?(\w+): ", text, re.MULTILINE)
+    return {name: groups()[name] for name in named if name in groups()}
+
+
+@cache
+def comments(command: str) -> dict[str, str]:
+    """What conf/ says of each key of a command, by its dotted name."""
+    return {key: comment for key, (_, comment) in _lines(command).items()}
+
+
+def defaults(command: str) -> dict[str, str]:
+    """What conf/ sets each key of a command to, as it is written there."""
+    return {key: value for key, (value, _) in _lines(command).items()}
+
+
+def own_keys(command: str) -> list[str]:
+    """A command's keys outside its groups."""
+    return [key for name in _files(command) for key in _read(CONF / f"{name}.yaml", "")]
+
+
+@cache
+def _lines(command: str) -> dict[str, tuple[str, str]]:
+    found: dict[str, tuple[str, str]] = {}
+    for group in groups_of(command):
+        for path in sorted((CONF / group).glob("*.yaml")):
+            found |= _read(path, group)
+    for name in _files(command):
+        found |= _read(CONF / f"{name}.yaml", "")
+    return found
+
+
+def _files(command: str) -> tuple[str, str]:
+    return command.replace("-", "_"), "common"
+
+
+def _choices(folder: Path) -> list[str]:
+    """Its files, but for those that only others include."""
+    texts = {path.stem: path.read_text() for path in sorted(folder.glob("*.yaml"))}
+    included = {name for text in texts.values() for name in INCLUDED.findall(text)}
+    named = {stem for stem, text in texts.items() if re.search(r"^name:", text, re.MULTILINE)}
+    return [stem for stem in texts if stem not in included or stem in named]
+
+
+def _read(path: Path, prefix: str) -> dict[str, tuple[str, str]]:
+    """Value and comment of each key of a YAML file, by its dotted name."""
+    found: dict[str, tuple[str, str]] = {}
+    above: list[tuple[int, str]] = []
+    for line in path.read_text().splitlines():
+        match = LINE.match(line)
+        if not match or match["key"] in ("defaults", "_target_"):
+            continue
+        indent = len(match["indent"])
+        above = [(depth, key) for depth, key in above if depth < indent] + [(indent, match["key"])]
+        dotted = ".".join([prefix, *(key for _, key in above)]).strip(".")
+        found[dotted] = (match["value"].strip(), (match["comment"] or "").strip())
+    return found

@@ -1,0 +1,208 @@
+"""What each key may hold: types, ranges and lengths. The values themselves stand in conf/ alone."""
+
+from typing import Annotated, Any, Literal
+
+from pydantic import BaseModel, ConfigDict
+from pydantic import Field as Within
+
+Whole = Annotated[int, Within(ge=0)]
+Count = Annotated[int, Within(ge=1)]
+Positive = Annotated[float, Within(gt=0)]
+NotNegative = Annotated[float, Within(ge=0)]
+Share = Annotated[float, Within(ge=0, le=1)]
+Pair = Annotated[list[float], Within(min_length=2, max_length=2)]
+HueRange = Annotated[list[Annotated[int, Within(ge=0, le=179)]], Within(min_length=2, max_length=2)]
+ByteRange = Annotated[
+    list[Annotated[int, Within(ge=0, le=255)]], Within(min_length=2, max_length=2)
+]
+Size = Annotated[list[Count], Within(min_length=2, max_length=2)]
+Posture = Annotated[list[float], Within(min_length=1)]
+
+
+class Section(BaseModel):
+    """Keys that belong together; no other key is taken."""
+
+    model_config = ConfigDict(extra="forbid", strict=True)
+
+
+class Target(BaseModel):
+    """A node whose `_target_` names what is built of it: other keys are its parameters."""
+
+    model_config = ConfigDict(extra="allow", strict=True)
+
+
+class Camera(Target):
+    """`camera`: what the visual space takes of it, and what the camera itself asks for."""
+
+    size: Size
+    focal_px: Positive
+
+
+class Controller(Target):
+    """`controller`."""
+
+    name: str
+
+
+class Recording(Section):
+    """`recording`."""
+
+    max_loss: Positive
+    reproducible: bool
+    live: bool
+
+
+class Field(Section):
+    """`field`."""
+
+    name: str
+    rows: Count
+    columns: Count
+    left: NotNegative
+
+
+class GuardPoint(Section):
+    """One of `robot.guard.points`."""
+
+    link: str
+    at: Annotated[list[float], Within(min_length=3, max_length=3)]
+    radius: NotNegative
+
+
+class Guard(Section):
+    """`robot.guard`."""
+
+    margin: NotNegative
+    least_clearance: NotNegative
+    points: list[GuardPoint]
+    table_height: float
+    base_radius: NotNegative
+    base_height: NotNegative
+
+
+class Robot(Section):
+    """`robot`."""
+
+    name: str
+    arm: Target
+    guided: Annotated[list[Posture], Within(min_length=2)]
+    guard: Guard
+
+
+class Dynamics(Section):
+    """`dynamics`."""
+
+    tau: Positive
+    beta: Positive
+    kernel_power: Literal[2, 4]
+
+
+class Common(Section):
+    """What every command that moves a robot takes."""
+
+    seed: Whole
+    out: str | None
+    period: Positive
+    recording: Recording
+    camera: Camera
+    robot: Robot
+    vision: Target
+    dynamics: Dynamics
+
+
+class Clusters(Section):
+    """`map` of learn-map."""
+
+    neurons: Count
+    alpha: Annotated[float, Within(gt=0, le=1)]
+    min_activity: Share
+    radius: NotNegative
+    excitation: Positive
+    inhibition: Positive
+
+
+class Learning(Section):
+    """`learning`."""
+
+    limit: Positive
+    patience: Positive
+    arrival: Positive
+    blocked: Positive
+    pairing: Positive
+
+
+class Curiosity(Section):
+    """`curiosity`."""
+
+    central: Positive
+    spacing: NotNegative
+    bandwidth: Positive
+    ridge: Positive
+    jitter: NotNegative
+    random: Share
+
+
+class LearnMap(Common):
+    """`imitate learn-map`."""
+
+    field: Field
+    map: Clusters
+    learning: Learning
+    curiosity: Curiosity
+
+
+class Reaching(Section):
+    """`reach`."""
+
+    tolerance: Positive
+    settled: Positive
+    hold_frames: Count
+    limit: Positive
+    after: Literal["stop", "hold"]
+    required: Share | None
+    inset: NotNegative
+    border: NotNegative
+    force: bool
+
+
+class Reach(Common):
+    """`imitate reach`."""
+
+    field: Field | None = None  # the map's, so that none is given
+    map: str
+    target: Literal["random"] | Pair
+    area: Annotated[list[Whole], Within(min_length=2, max_length=2)] | None
+    trials: Count
+    controller: Controller
+    reach: Reaching
+
+
+COMMANDS: dict[str, type[Section]] = {"learn-map": LearnMap, "reach": Reach}
+
+# Ranges of the parameters of whatever a `_target_` names, by their names.
+RANGES: dict[str, Any] = {
+    "eye": Annotated[list[float], Within(min_length=3, max_length=3)],
+    "gaze": Pair,
+    "noise_px": NotNegative,
+    "delay_frames": Whole,
+    "hue": HueRange,
+    "saturation": ByteRange,
+    "value": ByteRange,
+    "min_pixels": Count,
+    "base": Annotated[list[float], Within(min_length=3, max_length=3)],
+    "speed": list[Positive] | None,
+    "acceleration": list[Positive],
+    "force": list[Positive],
+    "finger_force": NotNegative,
+    "rate": Count,
+    "iterations": Count,
+    "stiffness": NotNegative,
+    "bandwidth": Positive,
+    "ridge": NotNegative,
+    "settling": Positive,
+    "largest": Positive,
+    "gain_per_px": NotNegative,
+    "noise_per_px": NotNegative,
+    "radius": Positive,
+    "distance_cap": Positive,
+}
