@@ -40,6 +40,16 @@ def make(node: Config, **more: Any) -> Any:
     return get_method(node["_target_"])(**_plain(node, "_target_"), **more)
 
 
+def made(node: Any) -> Any:
+    """`node` with everything built that a `_target_` in it names, innermost first."""
+    if isinstance(node, list):
+        return [made(one) for one in node]
+    if not isinstance(node, dict):
+        return node
+    inside = {key: made(value) for key, value in node.items()}
+    return make(inside) if "_target_" in inside else inside
+
+
 @dataclass
 class Bench:
     """The parts of an experiment, made when first asked for."""
@@ -77,7 +87,8 @@ class Bench:
     @property
     def period_ns(self) -> int:
         """The control period [ns]."""
-        return int(round(self.cfg["period"] * SECOND))
+        period: float = self.cfg["period"]
+        return round(period * SECOND)
 
     @property
     def guided(self) -> Array:

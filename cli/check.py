@@ -21,6 +21,7 @@ PYDANTIC = {
     "List should have ": "a list of ",
     " after validation": "",
     "a valid integer": "a whole number",
+    "a valid boolean": "true or false",
     "a valid ": "a ",
 }
 
@@ -61,6 +62,18 @@ def targets(model: BaseModel, path: tuple[str, ...]) -> Iterator[tuple[tuple[str
             yield (*path, name), value
         elif isinstance(value, BaseModel):
             yield from targets(value, (*path, name))
+        elif isinstance(value, dict):
+            yield from _targets_of_dict(value, (*path, name))
+
+
+def _targets_of_dict(
+    node: dict[str, Any], path: tuple[str, ...]
+) -> Iterator[tuple[tuple[str, ...], Target]]:
+    if "_target_" in node:
+        yield path, Target.model_validate(node)
+    for key, value in node.items():
+        if isinstance(value, dict):
+            yield from _targets_of_dict(value, (*path, key))
 
 
 def check_target(node: Target, path: tuple[str, ...], cfg: Config) -> None:

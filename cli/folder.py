@@ -23,8 +23,18 @@ def make_run_folder(out: str | None, command: str) -> Path:
             f"out={out} holds a run already and nothing is written over; "
             f"type out={next_free(Path(out))}"
         )
-    _make(folder, exist_ok=True)
-    return folder
+    return writable(folder)
+
+
+def writable(folder: Path) -> Path:
+    """The folder, made when it is missing; whatever it holds stays.
+
+    Raises:
+        UserError: It cannot be written.
+    """
+    absolute = folder.expanduser().absolute()
+    _make(absolute, exist_ok=True)
+    return absolute
 
 
 def next_free(folder: Path) -> Path:

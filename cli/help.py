@@ -4,6 +4,7 @@ from typing import Any, ClassVar
 
 from typer.core import TyperCommand
 
+from cli.figures import FIGURES
 from cli.keys import comments, defaults, groups_of, own_keys
 
 EXIT_CODES = [
@@ -38,6 +39,11 @@ EXAMPLES = {
         ("imitate reach map=RUN controller=yuragi trials=6", "the paper's law, six trials"),
         ("imitate reach map=RUN 'target=[100,60]'", "a place; mind the quotes"),
         ("imitate reach map=RUN 'area=[1,2]'", "the place learned for an area"),
+    ],
+    "figure": [
+        ("imitate figure fig3a", "all seeds; exit code 1 when a claim fails"),
+        ("imitate figure fig3a demo=true", "a few seeds, at a glance"),
+        ("imitate figure fig3b out=here seeds=5", "into the folder here/"),
     ],
 }
 
@@ -75,6 +81,11 @@ def complete(ctx: Any, incomplete: str) -> list[tuple[str, str]]:
     if typed[-1:] == ["="]:
         return [(choice, "") for choice in groups.get(typed[-2], [])]
     return [(word, note) for word, note in offers if word.startswith(incomplete)]
+
+
+def figure_names() -> list[str]:
+    """What a shell may offer for a figure's name."""
+    return list(FIGURES)
 
 
 def _keys(command: str) -> list[tuple[str, str]]:

@@ -1,6 +1,8 @@
 """Ctrl-C and SIGTERM end a run between two steps, never in the middle of one."""
 
 import signal
+from collections.abc import Iterator
+from contextlib import contextmanager
 from types import FrameType, TracebackType
 from typing import Any
 
@@ -32,10 +34,15 @@ class Interruption:
         self.wanted = True
 
 
-def terminate_like_ctrl_c() -> None:
-    """Let SIGTERM do what Ctrl-C does."""
+@contextmanager
+def sigterm_like_ctrl_c() -> Iterator[None]:
+    """SIGTERM does inside what Ctrl-C does."""
 
     def interrupt(number: int, frame: FrameType | None) -> None:
         raise KeyboardInterrupt
 
-    signal.signal(signal.SIGTERM, interrupt)
+    before = signal.signal(signal.SIGTERM, interrupt)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGTERM, before)

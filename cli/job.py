@@ -1,21 +1,19 @@
 """One job of a command: from the composed configuration to an exit code, never an exception."""
 
 import json
-import logging
-import signal
 import traceback
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 from hydra.core.hydra_config import HydraConfig
 from hydra.types import RunMode
 from omegaconf import DictConfig
 
+from cli.build import Config
 from cli.check import checked
-from cli.errors import BAD_INPUT, DEVICE, DONE, INTERRUPTED, NOT_TRUE, UserError, is_refusal, say
+from cli.errors import BAD_INPUT, DEVICE, DONE, INTERRUPTED, NOT_TRUE, is_refusal, say
 from cli.folder import make_run_folder
-from cli.interruption import terminate_like_ctrl_c
+from cli.interruption import sigterm_like_ctrl_c
 from cli.report import show
 from cli.run import Outcome, Run
 from imitation.recording.mcap_recording import RecorderError
@@ -27,12 +25,19 @@ codes: list[int] = []  # exit codes of the jobs that ran in this process
 
 def job(command: str, composed: DictConfig, work: Work) -> int:
     """Do `work` in a run folder of its own and return the exit code."""
-    before = signal.getsignal(signal.SIGTERM)
-    terminate_like_ctrl_c()
-    try:
-        code = _attempt(command, composed, work)
-    finally:
-        signal.signal(signal.SIGTERM, before)
+    return attempt(lambda: _run(command, checked(command, composed), work))
+
+
+def attempt(action: Callable[[], int]) -> int:
+    """The exit code of `action`, whatever happens in it, kept for whoever launched the job."""
+    with sigterm_like_ctrl_c():
+        try:
+            code = action()
+        except KeyboardInterrupt:
+            say("interrupted")
+            code = INTERRUPTED
+        except Exception as error:
+            code = explain(error)
     codes.append(code)
     if _in_sweep():
         _tell_sweep(code)
@@ -41,30 +46,8 @@ def job(command: str, composed: DictConfig, work: Work) -> int:
     return code
 
 
-def _attempt(command: str, composed: DictConfig, work: Work) -> int:
-    try:
-        cfg = checked(command, composed)
-        run = Run(command, cfg, make_run_folder(_out(cfg), command))
-    except UserError as error:
-        say(str(error))
-        return BAD_INPUT
-    try:
-        outcome = work(run)
-    except Exception as error:
-        run.write_metrics("failed", {})
-        run.log.exception("failed")
-        return _explain(error, run.log)
-    except KeyboardInterrupt:
-        run.write_metrics("interrupted", {})
-        run.log.info("interrupted")
-        say(f"interrupted; what was recorded until then is in {run.folder}")
-        return INTERRUPTED
-    finally:
-        run.close()
-    return _finish(run, outcome)
-
-
-def _explain(error: Exception, log: logging.Logger) -> int:
+def explain(error: Exception) -> int:
+    """Say what went wrong, and return the exit code."""
     if is_refusal(error):
         say(str(error))
         return BAD_INPUT
@@ -73,6 +56,25 @@ def _explain(error: Exception, log: logging.Logger) -> int:
         return DEVICE
     traceback.print_exception(error)  # a bug of this program, nothing a user could mend
     return NOT_TRUE
+
+
+def _run(command: str, cfg: Config, work: Work) -> int:
+    run = Run(command, cfg, make_run_folder(_out(cfg), command))
+    run.log.info("imitate %s %s", command, " ".join(HydraConfig.get().overrides.task))
+    try:
+        outcome = work(run)
+        return _finish(run, outcome)
+    except KeyboardInterrupt:
+        run.write_metrics("interrupted", {})
+        run.log.info("interrupted")
+        say(f"what was recorded until then is in {run.folder}")
+        raise
+    except Exception:
+        run.write_metrics("failed", {})
+        run.log.exception("failed")
+        raise
+    finally:
+        run.close()
 
 
 def _finish(run: Run, outcome: Outcome) -> int:
@@ -88,7 +90,7 @@ def _in_sweep() -> bool:
     return HydraConfig.get().mode == RunMode.MULTIRUN
 
 
-def _out(cfg: Any) -> str | None:
+def _out(cfg: Config) -> str | None:
     if not _in_sweep():
         out = cfg["out"]
         return None if out is None else str(out)

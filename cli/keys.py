@@ -6,7 +6,7 @@ from pathlib import Path
 
 CONF = Path(__file__).parents[1] / "conf"
 LINE = re.compile(r"^(?P<indent> *)(?P<key>\w+):(?P<value>[^#]*)(?:# (?P<comment>.*))?$")
-INCLUDED = re.compile(r"^  - (\w+)$", re.MULTILINE)
+INCLUDED = re.compile(r"^  - (?!_self_)(\w+)$", re.MULTILINE)
 
 
 @cache
@@ -54,8 +54,10 @@ def _lines(command: str) -> dict[str, tuple[str, str]]:
     return found
 
 
-def _files(command: str) -> tuple[str, str]:
-    return command.replace("-", "_"), "common"
+def _files(command: str) -> list[str]:
+    """The files outside groups that a command is composed of."""
+    own = command.replace("-", "_")
+    return [own, *INCLUDED.findall((CONF / f"{own}.yaml").read_text())]
 
 
 def _choices(folder: Path) -> list[str]:

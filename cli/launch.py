@@ -6,6 +6,7 @@ from collections.abc import Callable
 from importlib import import_module
 
 from cli.errors import BAD_INPUT, DONE, INTERRUPTED, UserError, say
+from cli.interruption import sigterm_like_ctrl_c
 from cli.words import Words, understand
 
 # Runs, logs and configurations are kept by cli/run.py: Hydra makes no folder and no log.
@@ -22,7 +23,8 @@ def launch(command: str, typed: list[str]) -> int:
     """Run a command, once or as a sweep, and return the exit code."""
     try:
         words = understand(typed)
-        return _run(command, words)
+        with sigterm_like_ctrl_c():
+            return _run(command, words)
     except UserError as error:
         say(str(error))
         return BAD_INPUT
@@ -48,7 +50,7 @@ def _sweep(command: str, words: Words, main: Callable[[], None]) -> int:
     from cli.folder import make_run_folder
     from cli.sweep import out_of, quoted, summary
 
-    folder = make_run_folder(out_of(words.overrides), f"{command}")
+    folder = make_run_folder(out_of(words.overrides), command)
     where = (f"hydra.sweep.dir={quoted(str(folder))}", "hydra.sweep.subdir=.")
     _call(main, [*words.overrides, *QUIET, *where, *words.flags])
     return summary(folder)

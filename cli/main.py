@@ -7,8 +7,9 @@ import typer
 from typer.core import TyperGroup
 from typer.exceptions import TyperException
 
-from cli.errors import BAD_INPUT, say
-from cli.help import StageCommand, complete
+from cli.errors import BAD_INPUT, nearest, say
+from cli.figures import FIGURES
+from cli.help import StageCommand, complete, figure_names
 from cli.launch import launch
 
 
@@ -66,6 +67,21 @@ def learn_map(words: Words = None) -> None:
 def reach(words: Words = None) -> None:
     """Reach seen targets with a learned map."""
     raise typer.Exit(launch("reach", words or []))
+
+
+@app.command(**STAGE)
+def figure(
+    name: Annotated[str, typer.Argument(help=" | ".join(FIGURES), autocompletion=figure_names)],
+    words: Words = None,
+) -> None:
+    """Draw a figure of the paper and check what it claims."""
+    if name not in FIGURES:
+        say(
+            f"there is no figure {name}{nearest(name, FIGURES) or ';'} choose from {', '.join(FIGURES)}"
+        )
+        raise typer.Exit(BAD_INPUT)
+    group, _ = FIGURES[name]
+    raise typer.Exit(launch("figure", [f"name={name}", f"figure={group}", *(words or [])]))
 
 
 def main() -> Any:

@@ -4,8 +4,6 @@ import json
 import logging
 import math
 import platform
-import shlex
-import sys
 import time
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field
@@ -59,7 +57,7 @@ class Run:
 
     def __post_init__(self) -> None:
         self.log = _log_to(self.folder / "log.txt")
-        self.log.info("%s on %s", shlex.join(["imitate", *sys.argv[1:]]), platform.node())
+        self.log.info("on %s, %s", platform.node(), platform.platform())
         (self.folder / "config.yaml").write_text(
             OmegaConf.to_yaml(OmegaConf.create(dict(self.cfg)))
         )

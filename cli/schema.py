@@ -177,7 +177,19 @@ class Reach(Common):
     reach: Reaching
 
 
-COMMANDS: dict[str, type[Section]] = {"learn-map": LearnMap, "reach": Reach}
+class Figure(Section):
+    """`imitate figure`."""
+
+    figure: dict[str, Any]
+    name: str
+    out: str
+    first_seed: Whole
+    seeds: Count
+    demo: bool
+    demo_seeds: Count
+
+
+COMMANDS: dict[str, type[Section]] = {"learn-map": LearnMap, "reach": Reach, "figure": Figure}
 
 # Ranges of the parameters of whatever a `_target_` names, by their names.
 RANGES: dict[str, Any] = {

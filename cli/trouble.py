@@ -3,7 +3,6 @@
 import re
 
 import yaml
-from hydra import compose, initialize_config_module
 from hydra.errors import (
     ConfigCompositionException,
     HydraException,
@@ -11,12 +10,11 @@ from hydra.errors import (
     OverrideParseException,
     SearchPathException,
 )
-from omegaconf import OmegaConf
 from omegaconf.errors import OmegaConfBaseException
 
 from cli.check import missing
 from cli.errors import UserError, nearest
-from cli.keys import groups_of
+from cli.keys import comments, groups_of
 
 BRACKETS = "put values that hold brackets or spaces in quotes, such as 'target=[80,60]'"
 
@@ -38,22 +36,6 @@ def as_user_error(command: str, error: Exception) -> Exception:
     return error
 
 
-def keys(command: str) -> list[str]:
-    """Every key of a command's configuration, dotted, and its groups."""
-    with initialize_config_module("conf", version_base="1.3"):
-        cfg = compose(command.replace("-", "_"))
-    return [*groups_of(command), *_dotted(OmegaConf.to_container(cfg), "")]
-
-
-def _dotted(node: object, prefix: str) -> list[str]:
-    if not isinstance(node, dict):
-        return []
-    found = []
-    for key, value in node.items():
-        found += [f"{prefix}{key}", *_dotted(value, f"{prefix}{key}.")]
-    return found
-
-
 def _no_such_choice(command: str, error: MissingConfigException) -> str:
     group, _, choice = (error.missing_cfg_file or "").rpartition("/")
     options = groups_of(command).get(group) or list(error.options or [])
@@ -73,7 +55,7 @@ def _not_composed(command: str, error: ConfigCompositionException) -> str:
         return missing(command, mandatory[1])
     unknown = re.match(r"Could not (?:override|append to config|delete).*?'(\S+?)'", text)
     if unknown:
-        return f"unknown key {unknown[1]}{nearest(unknown[1], keys(command))}"
+        return f"unknown key {unknown[1]}{nearest(unknown[1], [*groups_of(command), *comments(command)])}"
     cause = error.__cause__
     return f"{_first_line(error)}{f': {_first_line(cause)}' if cause else ''}"
 

@@ -1,0 +1,63 @@
+"""imitate figure: draw a figure of the paper, write what it claims, say which claims came true."""
+
+import os
+from collections.abc import Sequence
+from pathlib import Path
+from pydoc import locate
+from typing import Any
+
+import hydra
+from omegaconf import DictConfig
+from rich.console import Console
+from rich.table import Table
+
+from cli.build import Config, made
+from cli.check import checked
+from cli.errors import DONE, NOT_TRUE, say
+from cli.figures import FIGURES
+from cli.folder import writable
+from cli.job import attempt
+from imitation.analysis.claims import Claim, write_claims
+from imitation.analysis.figure_style import save
+
+
+@hydra.main(version_base="1.3", config_path="pkg://conf", config_name="figure")
+def main(cfg: DictConfig) -> int:
+    """One job."""
+    return attempt(lambda: draw(checked("figure", cfg)))
+
+
+def draw(cfg: Config) -> int:
+    """Draw the figure and return the exit code."""
+    name, demo = cfg["name"], cfg["demo"]
+    folder = writable(Path(cfg["out"]))
+    _, function = FIGURES[name]
+    drawing: Any = locate(function)
+    count = cfg["demo_seeds"] if demo else cfg["seeds"]
+    seeds = range(cfg["first_seed"], cfg["first_seed"] + count)
+    figure, claims = drawing(seeds, made(cfg["figure"][name]))
+    files = [*save(figure, folder, name), write_claims(folder, name, claims, count, demo)]
+    show(f"{name}{f' (demo, n = {count})' if demo else ''}", claims, files)
+    failed = [claim for claim in claims if not claim.passed]
+    if not failed or demo:
+        return DONE
+    say(f"{name}: {len(failed)} of {len(claims)} claims did not come true")
+    return NOT_TRUE
+
+
+def show(title: str, claims: Sequence[Claim], files: Sequence[Path]) -> None:
+    """Print the claims and where the figure is."""
+    table = Table(title=title, title_justify="left")
+    for heading in ("claim", "asked", "measured", "95 % interval", ""):
+        table.add_column(heading)
+    for claim in claims:
+        table.add_row(
+            claim.sentence,
+            f"{claim.comparison} {claim.asked:g} {claim.unit}",
+            f"{claim.measured:.4g}",
+            f"{claim.low:.4g} .. {claim.high:.4g}",
+            "true" if claim.passed else "not true",
+        )
+    console = Console(highlight=False)
+    console.print(table)
+    console.print("files  " + " ".join(os.path.relpath(path) for path in files), soft_wrap=True)
