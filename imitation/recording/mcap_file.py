@@ -12,19 +12,17 @@ from pathlib import Path
 from typing import Any, BinaryIO
 
 from mcap.data_stream import ReadDataStream, RecordBuilder
-from mcap.exceptions import EndOfFile, McapError
 from mcap.opcode import Opcode
 from mcap.records import (
     Attachment,
     Channel,
     Chunk,
-    Header,
     McapRecord,
     MessageIndex,
     Metadata,
     Schema,
 )
-from mcap.stream_reader import StreamReader, get_chunk_data_stream
+from mcap.stream_reader import get_chunk_data_stream
 from mcap.writer import MCAP0_MAGIC, CompressionType, Writer
 from zstandard import ZstdError
 
@@ -39,6 +37,12 @@ WALL_LIMIT = 1.0  # a chunk older than this is closed, unless reproducible [s]
 MESSAGE_HEAD = struct.Struct("<BQHIQQ")  # opcode, length, channel, sequence, two times
 RECORD_HEAD = struct.Struct("<BQ")  # opcode, length
 NO_LIMIT = 1 << 62  # chunks are closed at the end of a step, never by their size
+BESIDE_MESSAGES: dict[int, Any] = {
+    Opcode.METADATA: Metadata,
+    Opcode.ATTACHMENT: Attachment,
+    Opcode.SCHEMA: Schema,
+    Opcode.CHANNEL: Channel,
+}
 MEDIA_TYPES = {".yaml": "application/yaml", ".json": "application/json", ".urdf": "application/xml"}
 
 
@@ -219,7 +223,7 @@ def contents(path: Path) -> Contents:
         ValueError: It is no ROS 2 bag in an MCAP file, or it is damaged.
     """
     found = Contents()
-    for record in _records(path):
+    for record in _records(path, BESIDE_MESSAGES):
         found.take(record)
     with path.open("rb") as stream:
         stream.seek(-len(MCAP0_MAGIC), os.SEEK_END)
@@ -240,14 +244,13 @@ def chunks(path: Path, found: Contents) -> Iterator[list[Message]]:
     Raises:
         ValueError: A chunk is damaged.
     """
-    for record in _records(path):
-        if isinstance(record, Chunk):
-            try:
-                stream, length = get_chunk_data_stream(record, validate_crc=True)
-            except (ValueError, ZstdError) as error:
-                at = record.message_start_time / SECOND
-                raise ValueError(f"{path} is damaged at {at:.2f} s of the run: {error}") from error
-            yield list(_messages(stream.read(length), found))
+    for chunk in _records(path, {Opcode.CHUNK: Chunk}):
+        try:
+            stream, length = get_chunk_data_stream(chunk, validate_crc=True)
+        except (ValueError, ZstdError) as error:
+            at = chunk.message_start_time / SECOND
+            raise ValueError(f"{path} is damaged at {at:.2f} s of the run: {error}") from error
+        yield list(_messages(stream.read(length), found))
 
 
 def _messages(data: bytes, found: Contents) -> Iterator[Message]:
@@ -260,22 +263,29 @@ def _messages(data: bytes, found: Contents) -> Iterator[Message]:
             topic = found.channels[channel].topic
             yield Message(topic, time_ns, data[at + MESSAGE_HEAD.size : end])
         elif opcode in (Opcode.CHANNEL, Opcode.SCHEMA):
-            kind = Channel if opcode == Opcode.CHANNEL else Schema
-            found.take(kind.read(ReadDataStream(BytesIO(data[start:end]))))
+            found.take(BESIDE_MESSAGES[opcode].read(ReadDataStream(BytesIO(data[start:end]))))
         at = end
 
 
-def _records(path: Path) -> Iterator[McapRecord]:
-    """Records of the file up to its end or to where it was cut; chunks are not opened."""
+def _records(path: Path, kinds: Mapping[int, Any]) -> Iterator[Any]:
+    """Whole records of some kinds, up to the file's end or to where it was cut."""
+    size = path.stat().st_size
     with path.open("rb") as stream:
-        records = StreamReader(stream, emit_chunks=True).records
-        try:
-            header = next(records)
-        except (StopIteration, McapError, struct.error) as error:
-            raise ValueError(f"{path} is no recording: it is not an MCAP file") from error
-        if not isinstance(header, Header) or header.profile != "ros2":
-            raise ValueError(f"{path} is no recording of this bench: it is not a ROS 2 bag")
-        try:
-            yield from records
-        except (EndOfFile, struct.error, UnicodeDecodeError):
-            return  # cut; the reader gives a record only when it is complete
+        _check_header(path, stream)
+        while len(head := stream.read(RECORD_HEAD.size)) == RECORD_HEAD.size:
+            opcode, length = RECORD_HEAD.unpack(head)
+            end = stream.tell() + length
+            if end > size:
+                return
+            if opcode in kinds:
+                yield kinds[opcode].read(ReadDataStream(stream))
+            stream.seek(end)
+
+
+def _check_header(path: Path, stream: BinaryIO) -> None:
+    if stream.read(len(MCAP0_MAGIC)) != MCAP0_MAGIC:
+        raise ValueError(f"{path} is no recording: it is not an MCAP file")
+    head = stream.read(RECORD_HEAD.size + 64)
+    if b"ros2" not in head:
+        raise ValueError(f"{path} is no recording of this bench: it is not a ROS 2 bag")
+    stream.seek(len(MCAP0_MAGIC))

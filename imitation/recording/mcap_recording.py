@@ -169,7 +169,10 @@ class Recording:
         file = path / "run.mcap" if path.is_dir() else path
         if not file.is_file():
             raise ValueError(f"no recording at {file}; give a run folder or its run.mcap")
-        return cls(file, contents(file))
+        found = contents(file)
+        if not {"run", "field"} <= found.metadata.keys():
+            raise ValueError(f"{file} is no recording of this bench: its record `run` is missing")
+        return cls(file, found)
 
     @property
     def topics(self) -> dict[str, Topic]:

@@ -76,11 +76,11 @@ def test_cut_file_is_read_up_to_the_cut(record, share):
     assert share * 100 - 26 <= steps <= 100
 
 
-@pytest.mark.parametrize("cut", [0, 1, 8, 20])
+@pytest.mark.parametrize("cut", [0, 1, 8, 20, 60])
 def test_file_cut_in_its_first_bytes_is_refused_in_one_sentence(record, cut):
     path = record()
     path.write_bytes(path.read_bytes()[:cut])
-    with pytest.raises(ValueError, match="not an MCAP file"):
+    with pytest.raises(ValueError, match="no recording"):
         Recording.open(path)
 
 

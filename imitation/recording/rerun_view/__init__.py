@@ -1,0 +1,42 @@
+"""A recording shown in Rerun, at first sight. The one package that knows Rerun."""
+
+import itertools
+from pathlib import Path
+
+import rerun as rr
+
+from imitation.recording.mcap_recording import Recording
+from imitation.recording.picture_columns import Batch, Overview
+from imitation.recording.rerun_view.drawing import Drawing
+from imitation.recording.rerun_view.live import LiveView
+from imitation.recording.rerun_view.panels import blueprint
+from imitation.recording.rerun_view.screenshot import screenshot
+
+__all__ = ["LiveView", "derive", "screenshot"]
+
+CHUNKS_AT_ONCE = 6  # of the recording; more would be faster by little and need more memory
+
+
+def derive(run: Path, rrd: Path) -> None:
+    """Write the Rerun file of a recording.
+
+    Args:
+        run: A run folder or its `run.mcap`; may be cut.
+        rrd: Where to write; replaced if it exists.
+
+    Raises:
+        ValueError: There is no recording at `run`, it is damaged, or it holds no step.
+        OSError: `rrd` cannot be written.
+    """
+    recording = Recording.open(run)
+    shown = Overview.of(recording)
+    stream = rr.RecordingStream("imitation", send_properties=False)
+    stream.save(rrd, default_blueprint=blueprint(shown))
+    try:
+        drawing = Drawing(shown)
+        drawing.draw_constants(stream)
+        chunks = recording.chunks()
+        while told := list(itertools.islice(chunks, CHUNKS_AT_ONCE)):
+            drawing.draw(stream, Batch(itertools.chain.from_iterable(told), recording.topics))
+    finally:
+        stream.disconnect()

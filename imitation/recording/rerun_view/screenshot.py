@@ -1,0 +1,90 @@
+"""A picture of a Rerun file, without a window."""
+
+import os
+import signal
+import socket
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+from rerun.experimental import ViewerClient
+
+from imitation.recording.rerun_view.panels import TIMELINE
+
+START = 30.0  # longest wait for the viewer to load the file [s]
+SETTLE = 5.0  # until data is fetched and the viewer's greetings have gone [s]
+SIZE = "1600x1000"  # of the picture [px]
+
+
+def screenshot(rrd: Path, png: Path) -> None:
+    """Save a picture of `rrd` as it looks at the end of the run.
+
+    Raises:
+        ValueError: There is no file `rrd`.
+        RuntimeError: The viewer cannot start, for lack of a renderer or for another reason.
+    """
+    if not rrd.is_file():
+        raise ValueError(f"no Rerun file at {rrd}")
+    port = _free_port()
+    command = [sys.executable, "-m", "rerun_cli", str(rrd), "--headless", "--window-size", SIZE]
+    viewer = subprocess.Popen(
+        [*command, "--bind", "127.0.0.1", "--port", str(port)],
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.PIPE,
+        start_new_session=True,  # so that the viewer behind the launcher can be ended as well
+    )
+    try:
+        client, end = _loaded(viewer, port)
+        client.set_time(TIMELINE, duration=end, play_state="paused")
+        time.sleep(SETTLE)
+        client.save_screenshot(str(png.absolute()))
+    finally:
+        if viewer.poll() is None:
+            os.killpg(viewer.pid, signal.SIGTERM)
+        viewer.communicate()
+
+
+def _loaded(viewer: "subprocess.Popen[bytes]", port: int) -> tuple[ViewerClient, float]:
+    """A client of the viewer once it shows the file, and when the run ended [s]."""
+    deadline = time.monotonic() + START
+    while time.monotonic() < deadline:
+        if viewer.poll() is not None:
+            raise RuntimeError(_why(viewer))
+        if listening(port):
+            client = ViewerClient.connect(f"rerun+http://127.0.0.1:{port}/proxy")
+            state = client.get_state()
+            ends = [
+                timeline.end
+                for recording in state.recordings
+                for timeline in recording.timelines
+                if timeline.name == TIMELINE and timeline.end is not None
+            ]
+            if state.active_recording and not state.loading and ends:
+                return client, max(ends) / 1e9
+        time.sleep(0.1)
+    raise RuntimeError(f"the Rerun viewer did not show the file within {START:.0f} s")
+
+
+def listening(port: int) -> bool:
+    """Whether someone listens on a port of this machine."""
+    with socket.socket() as probe:
+        probe.settimeout(0.2)
+        return probe.connect_ex(("127.0.0.1", port)) == 0
+
+
+def _why(viewer: "subprocess.Popen[bytes]") -> str:
+    _, told = viewer.communicate()
+    if b"graphics adapter" in told or b"wgpu" in told.lower():
+        return (
+            "a screenshot needs a Vulkan renderer and this machine has none; install a software "
+            "one: apt-get install mesa-vulkan-drivers"
+        )
+    lines = told.decode(errors="replace").strip().splitlines() or ["without a word"]
+    return f"the Rerun viewer ended: {lines[-1]}"
+
+
+def _free_port() -> int:
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        return int(probe.getsockname()[1])

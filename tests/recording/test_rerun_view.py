@@ -1,0 +1,128 @@
+import io
+import shutil
+import socket
+from pathlib import Path
+
+import made_up
+import numpy as np
+import pytest
+import rerun as rr
+
+from imitation.recording.rerun_view import LiveView, derive, screenshot
+from imitation.recording.rerun_view.drawing import short
+from imitation.robots.bullet import world
+
+KATANA = (Path(world.__file__).parent / "katana_6m180.urdf").read_bytes()
+
+
+@pytest.fixture
+def derived(record, tmp_path):
+    """Makes a run and its Rerun file, and tells the file and its entities."""
+
+    def make(**more):
+        rrd = tmp_path / "run.rrd"
+        derive(record(**more).parent, rrd)
+        chunks = rr.chunk.RrdReader(rrd).stream().to_chunks()
+        return rrd, {chunk.entity_path for chunk in chunks}
+
+    return make
+
+
+def test_rerun_file_shows_camera_fields_curves_events_and_words(derived):
+    rrd, entities = derived()
+    assert rrd.stat().st_size > 10_000
+    assert entities >= {
+        "/camera/image",
+        "/camera/areas",
+        "/camera/hand",
+        "/camera/true_hand",
+        "/camera/target",
+        "/fields/visual_input/tiles",
+        "/fields/selection/tiles",
+        "/fields/activation/tiles",
+        "/curves/joints",
+        "/curves/velocity",
+        "/curves/distance",
+        "/curves/dynamics/gain",
+        "/curves/dynamics/noise_level",
+        "/events",
+        "/guard",
+        "/guide",
+        "/configuration",
+    }
+
+
+def test_arm_is_shown_where_its_model_is_attached(derived, monkeypatch):
+    _, without = derived(name="without.mcap".replace("without", "run"))
+    assert not any(entity.startswith("/arm") for entity in without)
+
+
+def test_arm_moves_where_its_model_is_attached(derived, monkeypatch):
+    names = tuple(
+        f"katana_motor{n}" for n in ("1_pan", "2_lift", "3_lift", "4_lift", "5_wrist_roll")
+    )
+    body = made_up.BODY.__class__(
+        **{**made_up.BODY.__dict__, "joint_names": tuple(f"{name}_joint" for name in names)}
+    )
+    monkeypatch.setattr(made_up, "BODY", body)
+    _, entities = derived(attachments={"katana_6m180.urdf": KATANA})
+    assert "/arm/joints" in entities
+
+
+def test_learned_places_of_an_attached_map_are_shown(derived):
+    places = np.full((4, 5, 2, 2), np.nan)
+    places[1, 2, 0] = 70.0, 45.0
+    saved = io.BytesIO()
+    np.savez(saved, places=places)
+    _, entities = derived(attachments={"map.npz": saved.getvalue()})
+    assert "/camera/learned_before" in entities
+
+
+def test_cut_recording_is_shown_up_to_the_cut(record, tmp_path):
+    path = record(steps=100)
+    path.write_bytes(path.read_bytes()[:60_000])
+    derive(path, tmp_path / "run.rrd")
+    assert (tmp_path / "run.rrd").stat().st_size > 10_000
+
+
+def test_recording_without_a_step_is_refused_in_one_sentence(tmp_path):
+    made_up.recorder(tmp_path / "run.mcap").close()
+    with pytest.raises(ValueError, match="holds no step"):
+        derive(tmp_path, tmp_path / "run.rrd")
+
+
+def test_time_is_the_run_s_own_clock(derived):
+    rrd, _ = derived()
+    chunks = rr.chunk.RrdReader(rrd).stream().filter(content="/curves/joints").to_chunks()
+    timelines = {name for chunk in chunks for name in chunk.timeline_names}
+    assert timelines == {"run_time"}
+
+
+def test_joint_names_lose_the_words_they_share():
+    assert short(["arm_pan_joint", "arm_lift_2_joint"]) == ["pan", "lift 2"]
+    assert short(["joint1", "joint2"]) == ["joint1", "joint2"]
+    assert short(["a", "a"]) == ["a", "a"]
+
+
+def test_live_view_without_a_viewer_is_refused_in_one_sentence():
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        port = probe.getsockname()[1]
+    with pytest.raises(ValueError, match=f"rerun --bind 127.0.0.1 --port {port}"):
+        LiveView(made_up.BODY, made_up.FIELD, {}, port)
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(
+    not any(Path("/usr/share/vulkan/icd.d").glob("*")), reason="needs a Vulkan renderer"
+)
+def test_screenshot_shows_something(derived, tmp_path):
+    rrd, _ = derived()
+    screenshot(rrd, tmp_path / "run.png")
+    assert (tmp_path / "run.png").stat().st_size > 50_000
+
+
+def test_screenshot_of_nothing_is_refused(tmp_path):
+    with pytest.raises(ValueError, match="no Rerun file"):
+        screenshot(tmp_path / "run.rrd", tmp_path / "run.png")
+    assert shutil.which("true")
