@@ -2,7 +2,7 @@
 
 import linecache
 import sys
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from difflib import get_close_matches
 
 DONE, NOT_TRUE, BAD_INPUT, DEVICE, INTERRUPTED = 0, 1, 2, 3, 130
@@ -21,6 +21,11 @@ def nearest(word: str, valid: Iterable[str]) -> str:
     """'; did you mean ...?' with the nearest valid name, or nothing."""
     close = get_close_matches(word, list(valid), n=1, cutoff=0.5)
     return f"; did you mean {close[0]}?" if close else ""
+
+
+def no_such(kind: str, word: str, valid: Sequence[str]) -> str:
+    """That `word` is not among the choices, with the nearest and all of them."""
+    return f"there is no {kind} {word}{nearest(word, valid) or ';'} choose from {', '.join(valid)}"
 
 
 def is_refusal(error: Exception) -> bool:

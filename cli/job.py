@@ -65,12 +65,14 @@ def _run(command: str, cfg: Config, work: Work) -> int:
         outcome = work(run)
         return _finish(run, outcome)
     except KeyboardInterrupt:
-        run.write_metrics("interrupted", {})
+        if not run.status:
+            run.write_metrics("interrupted", {})
         run.log.info("interrupted")
         say(f"what was recorded until then is in {run.folder}")
         raise
     except Exception:
-        run.write_metrics("failed", {})
+        if not run.status:
+            run.write_metrics("failed", {})
         run.log.exception("failed")
         raise
     finally:
@@ -79,6 +81,7 @@ def _run(command: str, cfg: Config, work: Work) -> int:
 
 def _finish(run: Run, outcome: Outcome) -> int:
     run.write_metrics("done", outcome.metrics)
+    run.draw()
     show(run.command, run.folder, outcome)
     if outcome.complaint:
         say(outcome.complaint)
@@ -87,7 +90,7 @@ def _finish(run: Run, outcome: Outcome) -> int:
 
 
 def _in_sweep() -> bool:
-    return HydraConfig.get().mode == RunMode.MULTIRUN
+    return HydraConfig.initialized() and HydraConfig.get().mode == RunMode.MULTIRUN
 
 
 def _out(cfg: Config) -> str | None:

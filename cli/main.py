@@ -1,13 +1,14 @@
 """The program `imitate`: one thin command for each stage."""
 
 import sys
+from pathlib import Path
 from typing import Annotated, Any
 
 import typer
 from typer.core import TyperGroup
 from typer.exceptions import TyperException
 
-from cli.errors import BAD_INPUT, nearest, say
+from cli.errors import BAD_INPUT, no_such, say
 from cli.figures import FIGURES
 from cli.help import StageCommand, complete, figure_names
 from cli.launch import launch
@@ -76,12 +77,24 @@ def figure(
 ) -> None:
     """Draw a figure of the paper and check what it claims."""
     if name not in FIGURES:
-        say(
-            f"there is no figure {name}{nearest(name, FIGURES) or ';'} choose from {', '.join(FIGURES)}"
-        )
+        say(no_such("figure", name, list(FIGURES)))
         raise typer.Exit(BAD_INPUT)
     group, _ = FIGURES[name]
     raise typer.Exit(launch("figure", [f"name={name}", f"figure={group}", *(words or [])]))
+
+
+@app.command()
+def view(
+    run: Annotated[Path, typer.Argument(help="A run's folder, its run.mcap or run.rrd.")],
+    screenshot: Annotated[
+        Path | None, typer.Option(help="Save a picture here instead; needs no screen.")
+    ] = None,
+) -> None:
+    """Look at a recording in Rerun; makes run.rrd if it is missing."""
+    from cli.job import attempt
+    from cli.view import view
+
+    raise typer.Exit(attempt(lambda: view(run, screenshot)))
 
 
 def main() -> Any:

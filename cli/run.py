@@ -6,6 +6,7 @@ import math
 import platform
 import time
 from collections.abc import Callable, Iterable, Iterator
+from contextlib import ExitStack, closing
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -18,7 +19,7 @@ from cli.interruption import Interruption
 from cli.progress import ProgressReport
 from cli.provenance import run_record, sha256
 from imitation.recording.mcap_recording import Recorder
-from imitation.robot import SECOND, Robot, Truth
+from imitation.robot import SECOND, Truth
 from imitation.robots.bullet.world import find_urdf
 from imitation.sample import Sample
 from imitation.visual_field import VisualField
@@ -50,6 +51,7 @@ class Run:
     cfg: Config
     folder: Path
     log: logging.Logger = field(init=False)
+    status: str = ""  # as metrics.json says it; empty until it is written
     steps: int = 0
     robot_time_s: float = 0.0
     _inputs: dict[str, Path] = field(default_factory=dict)
@@ -75,14 +77,22 @@ class Run:
         Raises:
             KeyboardInterrupt: A signal asked for the end; the recording is closed and readable.
         """
-        robot = self.bench.robot
-        recorder = self._recorder(robot, visual_field)
-        with recorder, ProgressReport(self.command) as report, Interruption() as interruption:
+        robot, attached = self.bench.robot, dict(self._attachments())
+        watchers = [watch] if watch else []
+        with ExitStack() as open_until_the_end:
+            recorder = open_until_the_end.enter_context(self._recorder(visual_field, attached))
+            if self.cfg["recording"]["live"]:
+                from imitation.recording.rerun_view import LiveView  # takes a second
+
+                live = LiveView(robot.body, visual_field, attached)
+                open_until_the_end.enter_context(closing(live))
+                watchers.append(live.show)
+            report = open_until_the_end.enter_context(ProgressReport(self.command))
+            interruption = open_until_the_end.enter_context(Interruption())
             for sample in samples:
                 truths = robot.truth()
-                recorder.write(sample, truths)
-                if watch:
-                    watch(sample, truths)
+                for one in (recorder.write, *watchers):
+                    one(sample, truths)
                 report.step(sample)
                 self._note(sample)
                 if interruption.wanted:
@@ -90,8 +100,16 @@ class Run:
         if interruption.wanted:
             raise KeyboardInterrupt
 
+    def draw(self) -> None:
+        """Derive run.rrd; a run without a step has nothing to show."""
+        if self.steps:
+            from imitation.recording.rerun_view import derive  # takes a second
+
+            derive(self.folder, self.folder / "run.rrd")
+
     def write_metrics(self, status: str, more: Config) -> None:
         """Write metrics.json; what is no number becomes null."""
+        self.status = status
         content = {
             "command": self.command,
             "status": status,
@@ -118,15 +136,15 @@ class Run:
         for event in sample.events:
             self.log.info("%.2f s: %s: %s", sample.seen.time, event.kind, event.sentence)
 
-    def _recorder(self, robot: Robot, visual_field: VisualField) -> Recorder:
-        settings, seed = self.cfg["recording"], self.cfg["seed"]
+    def _recorder(self, visual_field: VisualField, attached: dict[str, bytes]) -> Recorder:
+        settings, seed, robot = self.cfg["recording"], self.cfg["seed"], self.bench.robot
         return Recorder(
             self.folder / "run.mcap",
             body=robot.body,
             field=visual_field,
             period_ns=robot.period_ns,
             metadata=run_record(self.command, seed, self.cfg["robot"]["name"]),
-            attachments=dict(self._attachments()),
+            attachments=attached,
             max_loss=settings["max_loss"],
             reproducible=settings["reproducible"],
         )

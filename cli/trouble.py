@@ -13,7 +13,7 @@ from hydra.errors import (
 from omegaconf.errors import OmegaConfBaseException
 
 from cli.check import missing
-from cli.errors import UserError, nearest
+from cli.errors import UserError, nearest, no_such
 from cli.keys import comments, groups_of
 
 BRACKETS = "put values that hold brackets or spaces in quotes, such as 'target=[80,60]'"
@@ -41,10 +41,7 @@ def _no_such_choice(command: str, error: MissingConfigException) -> str:
     options = groups_of(command).get(group) or list(error.options or [])
     if not options:
         return _first_line(error)
-    return (
-        f"{group}={choice}: there is no such {group}{nearest(choice, options) or ';'} "
-        f"choose from {', '.join(options)}"
-    )
+    return f"{group}={choice}: {no_such(group, choice, options)}"
 
 
 def _not_composed(command: str, error: ConfigCompositionException) -> str:
@@ -55,7 +52,8 @@ def _not_composed(command: str, error: ConfigCompositionException) -> str:
         return missing(command, mandatory[1])
     unknown = re.match(r"Could not (?:override|append to config|delete).*?'(\S+?)'", text)
     if unknown:
-        return f"unknown key {unknown[1]}{nearest(unknown[1], [*groups_of(command), *comments(command)])}"
+        known = [*groups_of(command), *comments(command)]
+        return f"unknown key {unknown[1]}{nearest(unknown[1], known)}"
     cause = error.__cause__
     return f"{_first_line(error)}{f': {_first_line(cause)}' if cause else ''}"
 
