@@ -5,12 +5,15 @@ import signal
 import socket
 import subprocess
 import sys
+import tempfile
 import time
 from pathlib import Path
+from typing import IO
 
 from rerun.experimental import ViewerClient
 
 from imitation.recording.rerun_view.panels import TIMELINE
+from imitation.robot import SECOND
 
 START = 30.0  # longest wait for the viewer to load the file [s]
 SETTLE = 5.0  # until data is fetched and the viewer's greetings have gone [s]
@@ -28,21 +31,24 @@ def screenshot(rrd: Path, png: Path) -> None:
         raise ValueError(f"no Rerun file at {rrd}")
     port = _free_port()
     command = [sys.executable, "-m", "rerun_cli", str(rrd), "--headless", "--window-size", SIZE]
-    viewer = subprocess.Popen(
-        [*command, "--bind", "127.0.0.1", "--port", str(port)],
-        stdout=subprocess.DEVNULL,
-        stderr=subprocess.PIPE,
-        start_new_session=True,  # so that the viewer behind the launcher can be ended as well
-    )
-    try:
-        client, end = _loaded(viewer, port)
-        client.set_time(TIMELINE, duration=end, play_state="paused")
-        time.sleep(SETTLE)
-        client.save_screenshot(str(png.absolute()))
-    finally:
-        if viewer.poll() is None:
-            os.killpg(viewer.pid, signal.SIGTERM)
-        viewer.communicate()
+    with tempfile.TemporaryFile() as told:
+        viewer = subprocess.Popen(
+            [*command, "--bind", "127.0.0.1", "--port", str(port)],
+            stdout=subprocess.DEVNULL,
+            stderr=told,
+            start_new_session=True,  # so that the viewer behind the launcher can be ended as well
+        )
+        try:
+            client, end = _loaded(viewer, port)
+            client.set_time(TIMELINE, duration=end, play_state="paused")
+            time.sleep(SETTLE)
+            client.save_screenshot(str(png.absolute()))
+        except (ConnectionError, ChildProcessError) as error:
+            raise RuntimeError(_why(told)) from error
+        finally:
+            if viewer.poll() is None:
+                os.killpg(viewer.pid, signal.SIGTERM)
+            viewer.wait()
 
 
 def _loaded(viewer: "subprocess.Popen[bytes]", port: int) -> tuple[ViewerClient, float]:
@@ -50,19 +56,23 @@ def _loaded(viewer: "subprocess.Popen[bytes]", port: int) -> tuple[ViewerClient,
     deadline = time.monotonic() + START
     while time.monotonic() < deadline:
         if viewer.poll() is not None:
-            raise RuntimeError(_why(viewer))
-        if listening(port):
+            raise ChildProcessError("the viewer ended")
+        time.sleep(0.1)
+        if not listening(port):
+            continue
+        try:
             client = ViewerClient.connect(f"rerun+http://127.0.0.1:{port}/proxy")
             state = client.get_state()
-            ends = [
-                timeline.end
-                for recording in state.recordings
-                for timeline in recording.timelines
-                if timeline.name == TIMELINE and timeline.end is not None
-            ]
-            if state.active_recording and not state.loading and ends:
-                return client, max(ends) / 1e9
-        time.sleep(0.1)
+        except ConnectionError:  # it has just ended, or is not quite there yet
+            continue
+        ends = [
+            timeline.end
+            for recording in state.recordings
+            for timeline in recording.timelines
+            if timeline.name == TIMELINE and timeline.end is not None
+        ]
+        if state.active_recording and not state.loading and ends:
+            return client, max(ends) / SECOND
     raise RuntimeError(f"the Rerun viewer did not show the file within {START:.0f} s")
 
 
@@ -73,15 +83,17 @@ def listening(port: int) -> bool:
         return probe.connect_ex(("127.0.0.1", port)) == 0
 
 
-def _why(viewer: "subprocess.Popen[bytes]") -> str:
-    _, told = viewer.communicate()
-    if b"graphics adapter" in told or b"wgpu" in told.lower():
+def _why(told: IO[bytes]) -> str:
+    """Why the viewer ended, from its words."""
+    told.seek(0)
+    words = told.read().decode(errors="replace")
+    if "adapter" in words or "wgpu" in words:
         return (
             "a screenshot needs a Vulkan renderer and this machine has none; install a software "
             "one: apt-get install mesa-vulkan-drivers"
         )
-    lines = told.decode(errors="replace").strip().splitlines() or ["without a word"]
-    return f"the Rerun viewer ended: {lines[-1]}"
+    last = words.strip().splitlines()[-1:] or ["without a word"]
+    return f"the Rerun viewer ended: {last[0]}"
 
 
 def _free_port() -> int:
