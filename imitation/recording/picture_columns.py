@@ -3,7 +3,6 @@
 import io
 import itertools
 import json
-from collections import defaultdict
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -150,7 +149,7 @@ class Overview:
 
 
 class Batch:
-    """Decoded messages of some steps, by topic.
+    """Messages of some steps, by topic; decoded when asked for.
 
     Args:
         told: The messages.
@@ -158,22 +157,27 @@ class Batch:
     """
 
     def __init__(self, told: Iterable[Message], topics: dict[str, Topic]) -> None:
-        self._times: defaultdict[str, list[int]] = defaultdict(list)
-        self._messages: defaultdict[str, list[Any]] = defaultdict(list)
-        for topic, time_ns, data in told:
-            self._times[topic].append(time_ns)
-            self._messages[topic].append(messages.decoded(data, topics[topic].type))
+        self._topics = topics
+        self._told: dict[str, list[Message]] = {}
+        self._decoded: dict[str, list[Any]] = {}
+        for message in told:
+            self._told.setdefault(message.topic, []).append(message)
 
     def __contains__(self, topic: str) -> bool:
-        return topic in self._times
+        return topic in self._told
 
     def times(self, topic: str) -> Times:
         """When the messages of a topic were said, (n,) [ns]."""
-        return np.array(self._times[topic], dtype=np.int64)
+        return np.array([message.time_ns for message in self._told.get(topic, ())], dtype=np.int64)
 
     def messages(self, topic: str) -> Sequence[Any]:
         """The messages of a topic."""
-        return self._messages[topic]
+        if topic not in self._decoded:
+            self._decoded[topic] = [
+                messages.decoded(message.data, self._topics[topic].type)
+                for message in self._told.get(topic, ())
+            ]
+        return self._decoded[topic]
 
     def vectors(self, topic: str, part: str = "data") -> Array:
         """A vector of each message, (n, length)."""
@@ -187,7 +191,7 @@ class Batch:
         """Values of the areas, (n, rows, columns); activation is that of an area's attractors."""
         if topic != "/attractors/activation":
             return self.vectors(topic).reshape(-1, *grid.shape)
-        areas = np.zeros((len(self._times[topic]), *grid.shape))
+        areas = np.zeros((len(self._told[topic]), *grid.shape))
         attractors = zip(self.messages("/attractors/index"), self.messages(topic), strict=True)
         for area, (index, activation) in zip(areas, attractors, strict=True):
             row, column, _ = messages.array(index).T
@@ -210,7 +214,9 @@ class Batch:
     def learned(self) -> dict[int, tuple[float, float]]:
         """Where the hand was seen when an area was learned [px], by time [ns]."""
         found = {}
-        for time_ns, message in zip(self._times["/events"], self.messages("/events"), strict=True):
+        for time_ns, message in zip(
+            self.times("/events").tolist(), self.messages("/events"), strict=True
+        ):
             if message.name == "learned":
                 _, facts = messages.split_log(message)
                 found[time_ns] = tuple(facts["place_px"])
