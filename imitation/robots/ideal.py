@@ -11,7 +11,7 @@ from imitation.robot import Body, JointReading
 from imitation.robots.kinematic_chain import KinematicChain
 
 TABLE = (158, 132, 102)  # colour of all that is not the hand, RGB
-FINER = 4  # the hand is drawn this much finer, then shrunk, so that its centre is exact
+FINER = 8  # the hand is drawn this much finer, then shrunk, so that its centre is exact
 
 
 class IdealArm:
@@ -73,14 +73,23 @@ class MarkOverTable:
     def photograph(self, space: VisualSpace, eye: Array, gaze: Array) -> Image:
         """The picture from `eye` [m] along `gaze` [rad], RGB."""
         width, height = space.size
-        picture = np.full((height * FINER, width * FINER, 3), TABLE, dtype=np.uint8)
+        picture = np.full((height, width, 3), TABLE, dtype=np.uint8)
         right, down, depth = rotation(gaze).T @ (self.arm.mark_position() - eye)
-        if depth > 0:
-            place = np.array((right, down)) / depth * space.focal + space.centre
-            # Pixel centres lie at +0.5; OpenCV draws around pixel indices, here in 1/16 px.
-            at = np.round((place * FINER - 0.5) * 16).astype(int)
-            size = round(self.radius / depth * space.focal * FINER * 16)
-            if np.all(np.abs(at) < 2**20):
-                cv2.circle(picture, (int(at[0]), int(at[1])), size, self.colour, -1, shift=4)
-        small = cv2.resize(picture, (width, height), interpolation=cv2.INTER_AREA)
-        return np.asarray(small, dtype=np.uint8)
+        if depth <= 0:
+            return picture
+        centre = np.array((right, down)) / depth * space.focal + space.centre
+        radius = self.radius / depth * space.focal
+        # Only the patch around the mark is drawn finely, then shrunk into the picture.
+        low = np.maximum(np.floor(centre - radius - 1), 0).astype(int)
+        high = np.minimum(np.ceil(centre + radius + 1), (width, height)).astype(int)
+        if np.any(low >= high):
+            return picture
+        across, along = (high - low) * FINER
+        patch = np.full((along, across, 3), TABLE, dtype=np.uint8)
+        # Pixel centres lie at +0.5; OpenCV draws around pixel indices, here in 1/16 px.
+        at = np.round(((centre - low) * FINER - 0.5) * 16).astype(int)
+        size = round(radius * FINER * 16)
+        cv2.circle(patch, (int(at[0]), int(at[1])), size, self.colour, -1, shift=4)
+        small = cv2.resize(patch, (across // FINER, along // FINER), interpolation=cv2.INTER_AREA)
+        picture[low[1] : high[1], low[0] : high[0]] = small
+        return picture
