@@ -1,3 +1,4 @@
+import dataclasses
 import resource
 import signal
 import subprocess
@@ -194,3 +195,25 @@ def test_recorder_needs_no_truth(tmp_path):
             recorder.write(sample, [])
     assert isinstance(recorder, Recorder)
     assert "/truth/hand" not in Recording.open(path).topics
+
+
+def test_jpeg_of_a_real_camera_is_recorded_as_it_came(tmp_path):
+    path, jpeg = tmp_path / "run.mcap", b"\xff\xd8 as it came"
+    with made_up.recorder(path) as recorder:
+        for sample, _ in made_up.run(3):
+            seen = dataclasses.replace(sample.seen, jpeg=jpeg)
+            recorder.write(dataclasses.replace(sample, seen=seen), [])
+    recording = Recording.open(path)
+    assert recording.topics["/camera/image"].type == "sensor_msgs/msg/CompressedImage"
+    (_, image), *_ = recording.messages("/camera/image")
+    assert (image.format, image.data.tobytes()) == ("jpeg", jpeg)
+
+
+def test_slow_run_is_saved_once_a_second_unless_reproducible(tmp_path, monkeypatch):
+    monkeypatch.setattr(mcap_file, "WALL_LIMIT", 0.05)
+    with made_up.recorder(tmp_path / "run.mcap", reproducible=False) as recorder:
+        for sample, truths in made_up.run(2):
+            recorder.write(sample, truths)
+        time.sleep(0.5)
+        recording = Recording.open(tmp_path / "run.mcap")
+        assert len(list(recording.messages("/joint_states"))) == 2
