@@ -59,8 +59,8 @@ def explain(error: Exception) -> int:
 
 
 def _run(command: str, cfg: Config, work: Work) -> int:
-    run = Run(command, cfg, make_run_folder(_out(cfg), command))
-    run.log.info("imitate %s %s", command, " ".join(HydraConfig.get().overrides.task))
+    typed = list(HydraConfig.get().overrides.task)
+    run = Run(command, cfg, make_run_folder(_out(cfg), command), typed)
     try:
         outcome = work(run)
         return _finish(run, outcome)

@@ -4,8 +4,9 @@ import json
 import logging
 import math
 import platform
+import shlex
 import time
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import ExitStack, closing
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -45,11 +46,13 @@ class Run:
         command: What was typed, such as learn-map.
         cfg: The composed configuration, checked.
         folder: Made for this run alone.
+        typed: The KEY=VALUE words.
     """
 
     command: str
     cfg: Config
     folder: Path
+    typed: Sequence[str]
     log: logging.Logger = field(init=False)
     status: str = ""  # as metrics.json says it; empty until it is written
     steps: int = 0
@@ -59,11 +62,17 @@ class Run:
 
     def __post_init__(self) -> None:
         self.log = _log_to(self.folder / "log.txt")
+        self.log.info("%s", shlex.join(["imitate", self.command, *self.typed]))
         self.log.info("on %s, %s", platform.node(), platform.platform())
         (self.folder / "config.yaml").write_text(
             OmegaConf.to_yaml(OmegaConf.create(dict(self.cfg)))
         )
         self.bench = Bench(self.cfg)
+
+    @property
+    def body_words(self) -> list[str]:
+        """Which of the typed words chose the body: a command that follows needs them too."""
+        return [shlex.quote(word) for word in self.typed if word.startswith(("robot", "camera"))]
 
     def uses(self, key: str, path: Path) -> None:
         """Attach the file that the configuration's `key` names to the recording."""

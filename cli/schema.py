@@ -16,6 +16,7 @@ ByteRange = Annotated[
     list[Annotated[int, Within(ge=0, le=255)]], Within(min_length=2, max_length=2)
 ]
 Size = Annotated[list[Count], Within(min_length=2, max_length=2)]
+Place = str | int  # a file or folder; one may be named 1
 Posture = Annotated[list[float], Within(min_length=1)]
 
 
@@ -101,7 +102,7 @@ class Common(Section):
     """What every command that moves a robot takes."""
 
     seed: Whole
-    out: str | None
+    out: Place | None
     period: Positive
     recording: Recording
     camera: Camera
@@ -169,7 +170,7 @@ class Reach(Common):
     """`imitate reach`."""
 
     field: Field | None = None  # the map's, so that none is given
-    map: str
+    map: Place
     target: Literal["random"] | Pair
     area: Annotated[list[Whole], Within(min_length=2, max_length=2)] | None
     trials: Count
@@ -182,7 +183,7 @@ class Figure(Section):
 
     figure: dict[str, Any]
     name: str
-    out: str
+    out: Place
     first_seed: Whole
     seeds: Count
     demo: bool

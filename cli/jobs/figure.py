@@ -30,7 +30,7 @@ def main(cfg: DictConfig) -> int:
 def draw(cfg: Config) -> int:
     """Draw the figure and return the exit code."""
     name, demo = cfg["name"], cfg["demo"]
-    folder = writable(Path(cfg["out"]))
+    folder = writable(Path(str(cfg["out"])))
     _, function = FIGURES[name]
     drawing: Any = locate(function)
     count = cfg["demo_seeds"] if demo else cfg["seeds"]

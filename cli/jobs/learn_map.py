@@ -36,12 +36,12 @@ def learn(run: Run) -> Outcome:
     told = fingerprint(body, bench.field, bench.space)
     save_map(run.folder / "map.npz", learned, _outline(learner), told)
     metrics = learn_map_metrics(learned, learner.shown)
-    at_limit = run.robot_time_s >= settings.limit
+    limit = settings.limit if run.robot_time_s >= settings.limit else None
     return Outcome(
         metrics=metrics,
         rows=map_card(metrics),
-        next="imitate reach map={run}",
-        complaint=complaint(metrics, "the limit came first" if at_limit else None),
+        next=" ".join(["imitate reach map={run}", *run.body_words]),
+        complaint=complaint(metrics, limit),
     )
 
 
@@ -56,16 +56,22 @@ def map_card(metrics: dict[str, Any]) -> list[tuple[str, str]]:
     ]
 
 
-def complaint(metrics: dict[str, Any], ended: str | None) -> str | None:
-    """Why the map is not what was asked for; None when it is."""
+def complaint(metrics: dict[str, Any], limit: float | None) -> str | None:
+    """Why the map is not what was asked for; None when it is.
+
+    Args:
+        metrics: Of the map.
+        limit: The limit that ended learning [s]; None when it ended by itself.
+    """
     if not np.any(metrics["visits"]):
-        return (
-            "the hand was never seen: is something of vision='s colour on it, in the camera's view?"
-        )
+        return "the hand was never seen: does it carry the colour of vision=, in the camera's view?"
+    if limit is not None:
+        learned = f"{metrics['areas_learned']} of {metrics['areas_total']} areas are learned"
+        return f"the limit of {limit:g} s came first: {learned}; give more time by learning.limit="
     missed = metrics["areas_not_confirmed"]
     if missed:
         return f"reached but not learned: {_areas(missed)}; another seed may do, such as seed=1"
-    return ended
+    return None
 
 
 def _outline(learner: Learner) -> Array:

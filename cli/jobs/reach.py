@@ -54,7 +54,7 @@ def reach_targets(run: Run) -> Outcome:
 
 def the_map(run: Run) -> LearnedMap:
     """The map that `map=` names, if it is this body's."""
-    named = Path(run.cfg["map"]).expanduser()
+    named = Path(str(run.cfg["map"])).expanduser()
     stored = load_map(named)
     run.uses("map", named / "map.npz" if named.is_dir() else named)
     bench, field = run.bench, stored.map.field

@@ -1,0 +1,34 @@
+"""Calls `imitate` as a user would, on the ideal arm, in a folder of its own."""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import pytest
+from typer.testing import CliRunner, Result
+
+from cli.main import app
+
+
+@dataclass
+class Imitate:
+    """Types a command in an empty folder."""
+
+    folder: Path
+
+    def __call__(self, *words: str) -> Result:
+        return CliRunner().invoke(app, list(words))
+
+
+@pytest.fixture
+def imitate(tmp_path, monkeypatch) -> Imitate:
+    monkeypatch.chdir(tmp_path)
+    return Imitate(tmp_path)
+
+
+@pytest.fixture(scope="session")
+def learned(tmp_path_factory) -> Path:
+    """Folder of a finished learn-map run, shared by all tests: not to be changed."""
+    folder = tmp_path_factory.mktemp("learned") / "map"
+    result = CliRunner().invoke(app, ["learn-map", "robot=ideal", f"out={folder}"])
+    assert result.exit_code == 0, result.output
+    return folder

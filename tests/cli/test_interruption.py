@@ -1,0 +1,50 @@
+"""Ctrl-C and SIGTERM end a run with its recording closed and readable."""
+
+import json
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from imitation.recording.mcap_recording import Recording
+
+IMITATE = str(Path(sys.executable).parent / "imitate")
+
+
+def started(folder, words):
+    """`imitate` in a process of its own, once its run is well under way."""
+    process = subprocess.Popen([IMITATE, *words], cwd=folder, stderr=subprocess.PIPE, text=True)
+    deadline = time.monotonic() + 60
+    while not any(path.stat().st_size > 50_000 for path in folder.rglob("run.mcap")):
+        assert process.poll() is None, process.stderr.read()
+        assert time.monotonic() < deadline
+        time.sleep(0.05)
+    return process
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_a_signal_leaves_a_whole_recording(tmp_path, learned, number):
+    words = ["reach", "robot=ideal", f"map={learned}", "controller=noise", "trials=99", "out=run"]
+    process = started(tmp_path, words)
+    process.send_signal(number)
+    _, told = process.communicate(timeout=30)
+    assert process.returncode == 130
+    assert "Traceback" not in told
+    recording = Recording.open(tmp_path / "run")
+    assert recording.whole
+    assert recording.digest() == recording.recomputed_digest()
+    metrics = json.loads((tmp_path / "run" / "metrics.json").read_text())
+    assert metrics["status"] == "interrupted"
+    assert metrics["steps"] == sum(1 for _ in recording.messages("/joint_states"))
+
+
+def test_a_signal_ends_a_whole_sweep(tmp_path, learned):
+    words = ["reach", "robot=ideal", f"map={learned}", "controller=noise", "trials=99", "out=sweep"]
+    process = started(tmp_path, [*words, "-m", "seed=0,1"])
+    process.send_signal(signal.SIGINT)
+    process.communicate(timeout=30)
+    assert process.returncode == 130
+    assert not (tmp_path / "sweep" / "1").exists()

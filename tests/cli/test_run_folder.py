@@ -1,0 +1,99 @@
+"""What a run leaves behind, and that it is the same when repeated."""
+
+import json
+
+import pytest
+from omegaconf import OmegaConf
+
+from cli.check import checked
+from imitation.recording.mcap_recording import Recording
+
+FILES = {"run.mcap", "run.rrd", "metrics.json", "config.yaml", "log.txt", "map.npz"}
+
+
+@pytest.fixture(scope="module")
+def metrics(learned):
+    return json.loads((learned / "metrics.json").read_text())
+
+
+def test_a_run_folder_holds_what_the_contract_says(learned):
+    assert {path.name for path in learned.iterdir()} == FILES
+
+
+def test_metrics_tell_of_the_run(metrics):
+    assert metrics["command"] == "learn-map"
+    assert metrics["status"] == "done"
+    assert metrics["seed"] == 0
+    assert metrics["steps"] == pytest.approx(metrics["robot_time_s"] / 0.04, abs=1)
+    assert metrics["wall_time_s"] > 0
+    assert metrics["areas_learned"] == metrics["areas_total"] == 16
+    assert metrics["coverage"] == 1.0
+
+
+def test_the_configuration_can_be_loaded_again(learned):
+    checked("learn-map", OmegaConf.load(learned / "config.yaml"))
+
+
+def test_the_recording_tells_where_it_comes_from_but_no_paths(imitate, learned):
+    imitate("reach", "robot=ideal", f"map={learned}", "out=here", "seed=3")
+    recording = Recording.open(imitate.folder / "here")
+    told = recording.metadata["run"]
+    assert told["command"] == "reach"
+    assert told["seed"] == "3"
+    assert told["robot"] == "ideal"
+    assert "numpy" in json.loads(told["packages"])
+    attached = recording.attachments["config.yaml"].decode()
+    assert "here" not in attached
+    assert str(learned) not in attached
+    assert "map: sha256:" in attached
+    assert recording.attachments["map.npz"] == (learned / "map.npz").read_bytes()
+    assert "katana_6m180.urdf" in recording.attachments
+
+
+@pytest.mark.parametrize("controller", ["yuragi", "corrected_aim"])
+def test_the_same_seed_twice_gives_the_same_bytes(imitate, learned, controller):
+    words = ["robot=ideal", f"map={learned}", f"controller={controller}", "reach.limit=3"]
+    for out in ("one", "two"):
+        imitate("reach", *words, "trials=2", f"out={out}", "reach.required=0")
+    one, two = (imitate.folder / out / "run.mcap" for out in ("one", "two"))
+    assert one.read_bytes() == two.read_bytes()
+
+
+def test_another_seed_gives_another_recording(imitate, learned):
+    for seed in (1, 2):
+        imitate("reach", "robot=ideal", f"map={learned}", f"seed={seed}", f"out={seed}")
+    one, two = (imitate.folder / str(seed) / "run.mcap" for seed in (1, 2))
+    assert one.read_bytes() != two.read_bytes()
+
+
+def test_runs_without_a_name_lie_side_by_side(imitate, learned):
+    for _ in range(2):
+        assert imitate("reach", "robot=ideal", f"map={learned}").exit_code == 0
+    assert len(list((imitate.folder / "data/runs/reach").iterdir())) == 2
+
+
+def test_hydra_leaves_nothing_behind(imitate):
+    imitate("learn-map", "robot=ideal", "out=run", "learning.limit=0.2")
+    assert [path.name for path in imitate.folder.iterdir()] == ["run"]
+
+
+def test_a_success_rate_below_the_required_one_is_exit_code_1(imitate, learned):
+    words = ["reach", "robot=ideal", f"map={learned}", "reach.limit=0.1"]
+    result = imitate(*words)
+    assert result.exit_code == 1
+    assert "reach.required" in result.stderr
+    assert imitate(*words, "reach.required=0").exit_code == 0
+    assert imitate(*words, "controller=noise").exit_code == 0
+
+
+def test_learning_that_comes_to_its_limit_is_exit_code_1(imitate):
+    result = imitate("learn-map", "robot=ideal", "learning.limit=1")
+    assert result.exit_code == 1
+    assert "limit" in result.stderr
+
+
+def test_the_end_of_a_run_names_results_files_and_the_next_command(imitate):
+    out = imitate("learn-map", "robot=ideal", "out=a").stdout
+    assert "16 of 16" in out
+    assert "a/" in out
+    assert "imitate reach map=a robot=ideal" in out

@@ -1,0 +1,41 @@
+"""A sweep runs all its jobs, each in its folder, and ends with the worst exit code."""
+
+import json
+
+import pytest
+
+
+def test_a_sweep_has_one_folder_a_job(imitate):
+    result = imitate("learn-map", "robot=ideal", "-m", "seed=0,1", "out=sweep")
+    assert result.exit_code == 0, result.output
+    for job, seed in enumerate((0, 1)):
+        metrics = json.loads((imitate.folder / f"sweep/{job}/metrics.json").read_text())
+        assert metrics["seed"] == seed
+    told = json.loads((imitate.folder / "sweep/sweep.json").read_text())
+    assert [one["exit_code"] for one in told["jobs"]] == [0, 0]
+    assert [path.name for path in imitate.folder.iterdir()] == ["sweep"]
+
+
+def test_a_job_that_fails_does_not_stop_the_others_and_sets_the_exit_code(imitate):
+    result = imitate("learn-map", "-m", "learning.limit=0.2,-1,120", "robot=ideal", "out=sweep")
+    assert result.exit_code == 2
+    told = json.loads((imitate.folder / "sweep/sweep.json").read_text())
+    assert [one["exit_code"] for one in told["jobs"]] == [1, 2, 0]
+
+
+def test_a_sweep_is_never_written_over(imitate):
+    words = ["learn-map", "-m", "seed=0", "robot=ideal", "learning.limit=0.2", "out=sweep"]
+    imitate(*words)
+    result = imitate(*words)
+    assert result.exit_code == 2
+    assert "out=sweep-2" in result.stderr
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("launcher", ["joblib", "submitit_local"])
+def test_a_launcher_runs_jobs_in_other_processes(imitate, launcher):
+    words = ["robot=ideal", "-m", "learning.limit=0.2,120", f"hydra/launcher={launcher}"]
+    result = imitate("learn-map", *words, "out=sweep")
+    assert result.exit_code == 1, result.output
+    told = json.loads((imitate.folder / "sweep/sweep.json").read_text())
+    assert [one["exit_code"] for one in told["jobs"]] == [1, 0]
