@@ -2,6 +2,7 @@
 
 import subprocess
 import sys
+from contextlib import suppress
 from pathlib import Path
 
 import pytest
@@ -106,17 +107,20 @@ def test_a_shell_is_offered_keys_and_choices(command, typed, offered):
     assert all(word.startswith(typed) for word in words)
 
 
-EXPERIMENTS = groups().get("experiment", [])
-
-
-@pytest.mark.parametrize("name", EXPERIMENTS)
+@pytest.mark.parametrize("name", groups()["experiment"])
 def test_an_experiment_composes_for_a_command_at_least(name):
     from hydra import compose, initialize_config_module
+    from hydra.errors import ConfigCompositionException
 
+    composed = 0
     with initialize_config_module("conf", version_base="1.3"):
-        for command in ("learn-map", "reach"):
-            words = [f"experiment={name}", *(["map=somewhere"] if command == "reach" else [])]
-            checked(command, compose(command.replace("-", "_"), words))
+        for command, more in (("learn-map", []), ("reach", ["map=somewhere"])):
+            # One about controllers does not fit learn-map.
+            with suppress(ConfigCompositionException):
+                cfg = compose(command.replace("-", "_"), [f"experiment={name}", *more])
+                checked(command, cfg)
+                composed += 1
+    assert composed
 
 
 @pytest.mark.parametrize("group", sorted(set(groups()) - {"figure", "experiment", "controller"}))
