@@ -7,7 +7,7 @@ from importlib import import_module
 
 from cli.errors import BAD_INPUT, DONE, INTERRUPTED, UserError, say
 from cli.interruption import sigterm_like_ctrl_c
-from cli.words import Words, understand
+from cli.words import Words, quoted, understand
 
 # Runs, logs and configurations are kept by cli/run.py: Hydra makes no folder and no log.
 QUIET = (
@@ -48,7 +48,7 @@ def _run(command: str, words: Words) -> int:
 
 def _sweep(command: str, words: Words, main: Callable[[], None]) -> int:
     from cli.folder import make_run_folder
-    from cli.sweep import out_of, quoted, summary
+    from cli.sweep import out_of, summary
 
     folder = make_run_folder(out_of(words.overrides), command)
     where = (f"hydra.sweep.dir={quoted(str(folder))}", "hydra.sweep.subdir=.")

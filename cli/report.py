@@ -1,6 +1,7 @@
 """What a run prints at its end: results, where the files are, the command to type next."""
 
 import os
+import shlex
 from pathlib import Path
 
 from rich.console import Console
@@ -20,4 +21,4 @@ def show(command: str, folder: Path, outcome: Outcome) -> None:
     where = str(folder) if where.startswith("..") else where
     files = " ".join(sorted(path.name for path in folder.iterdir()))
     console.print(f"files  {where}/  {files}", markup=False)
-    console.print(f"next   {outcome.next.format(run=where)}", markup=False)
+    console.print(f"next   {outcome.next.format(run=shlex.quote(where))}", markup=False)

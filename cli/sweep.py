@@ -24,11 +24,6 @@ def out_of(overrides: list[str]) -> str | None:
     return None if value is None else str(value)
 
 
-def quoted(text: str) -> str:
-    """`text` as a quoted value of Hydra's grammar."""
-    return "'" + text.replace("\\", "\\\\").replace("'", "\\'") + "'"
-
-
 def summary(folder: Path) -> int:
     """Gather the jobs' exit codes in sweep.json, print them, and return the worst."""
     jobs = sorted(_told(folder), key=lambda one: int(one["job"]))

@@ -6,6 +6,8 @@ from dataclasses import dataclass, field
 from cli.errors import UserError, nearest
 
 OVERRIDE = re.compile(r"^[+~]*[\w/@.]+=|^~[\w/@.]+$")
+PATHS = ("out", "map")  # keys whose values are paths
+SPECIAL = re.compile(r"[()\[\]{}=,'\"\\]")
 SWITCHES = {"-m": "--multirun", "--multirun": "--multirun", "--resolve": "--resolve"}
 WITH_VALUE = {
     "--cfg": ("job", "hydra", "all"),
@@ -53,11 +55,25 @@ def understand(typed: list[str]) -> Words:
             raise UserError(f"unknown option {word}{nearest(word, known)}")
         else:
             raise UserError(f"expected KEY=VALUE, got {word}; type for instance seed=1")
+    if not words.sweep:
+        words.overrides = [_path_quoted(word) for word in words.overrides]
     if words.sweep and words.only_shows:
         raise UserError("-m runs a sweep and --cfg or --info only shows: give one of them")
     if "--resolve" in words.flags and not words.only_shows:
         raise UserError("--resolve goes with --cfg: type --cfg job --resolve")
     return words
+
+
+def quoted(text: str) -> str:
+    """`text` as a quoted value of Hydra's grammar."""
+    return "'" + text.replace("\\", "\\\\").replace("'", "\\'") + "'"
+
+
+def _path_quoted(word: str) -> str:
+    """A word whose path holds what Hydra's grammar gives a meaning, quoted; others as they are."""
+    key, _, value = word.partition("=")
+    plain = key not in PATHS or not SPECIAL.search(value) or value[:1] in ("'", '"')
+    return word if plain else f"{key}={quoted(value)}"
 
 
 def _next(name: str, rest: list[str]) -> str:

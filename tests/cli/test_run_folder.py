@@ -1,6 +1,8 @@
 """What a run leaves behind, and that it is the same when repeated."""
 
 import json
+import subprocess
+import sys
 
 import pytest
 from omegaconf import OmegaConf
@@ -97,3 +99,22 @@ def test_the_end_of_a_run_names_results_files_and_the_next_command(imitate):
     assert "16 of 16" in out
     assert "a/" in out
     assert "imitate reach map=a robot=ideal" in out
+
+
+@pytest.mark.parametrize("name", ["a b", "x(1)", "x=1,2", "it's", "[1]", "1"])
+def test_a_folder_may_have_any_name(imitate, name):
+    assert imitate("learn-map", "robot=ideal", f"out={name}").exit_code == 0
+    assert (imitate.folder / name / "map.npz").is_file()
+    assert imitate("reach", "robot=ideal", f"map={name}").exit_code == 0
+
+
+def test_a_recording_that_cannot_be_written_is_exit_code_3(tmp_path):
+    program = "from cli.main import main; main()"
+    limit = "import resource; resource.setrlimit(resource.RLIMIT_FSIZE, (200_000, 200_000)); "
+    call = [sys.executable, "-c", limit + program, "learn-map", "robot=ideal", "out=run"]
+    told = subprocess.run(call, cwd=tmp_path, capture_output=True, text=True, timeout=60)
+    assert told.returncode == 3
+    assert told.stderr.count("\n") == 1
+    assert "run.mcap cannot be written" in told.stderr
+    metrics = json.loads((tmp_path / "run" / "metrics.json").read_text())
+    assert metrics["status"] == "failed"
