@@ -90,7 +90,7 @@ class Bench:
         period: float = self.cfg["period"]
         return round(period * SECOND)
 
-    @property
+    @cached_property
     def guided(self) -> Array:
         """Postures the experimenter guided the arm to, (n, n_joints) [rad]."""
         return np.array(self.cfg["robot"]["guided"], dtype=float)

@@ -147,6 +147,7 @@ class LearnMap(Common):
     """`imitate learn-map`."""
 
     field: Field
+    guide: bool
     map: Clusters
     learning: Learning
     curiosity: Curiosity

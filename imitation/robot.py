@@ -1,7 +1,7 @@
 """The robot: an arm and a camera joined behind one `step`, with the guard inside."""
 
 from dataclasses import dataclass, field
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 import numpy as np
 
@@ -117,6 +117,17 @@ class Arm(Protocol):
 
     def close(self) -> None:
         """Stop the arm and release it; harmless when repeated."""
+
+
+@runtime_checkable
+class Limp(Protocol):
+    """An arm that can be led by hand."""
+
+    def go_limp(self) -> None:
+        """Let the joints be moved from outside."""
+
+    def go_stiff(self) -> None:
+        """Hold the posture again."""
 
 
 class Camera(Protocol):

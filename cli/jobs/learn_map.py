@@ -1,18 +1,21 @@
 """imitate learn-map: babble, watch the own hand, save the map."""
 
+from collections.abc import Iterator
 from typing import Any
 
 import hydra
 import numpy as np
 from omegaconf import DictConfig
 
-from cli.build import generator
+from cli.build import Bench, generator
+from cli.guide import guide, typed_answer, write_guided
 from cli.job import job
 from cli.run import Outcome, Run
 from imitation.analysis.metrics import learn_map_metrics
 from imitation.arrays import Array
-from imitation.hull import outline
-from imitation.recording.map_file import fingerprint, save_map
+from imitation.hull import clip_outline, outline
+from imitation.recording.map_file import LearnedMap, fingerprint, save_map
+from imitation.sample import Sample
 from imitation.stages.babbling import Babbling, Curiosity
 from imitation.stages.learn_map import Learner, LearningRun, learn_map
 
@@ -25,24 +28,43 @@ def main(cfg: DictConfig) -> int:
 
 def learn(run: Run) -> Outcome:
     """Learn a map and save it beside the recording."""
-    bench, cfg = run.bench, run.cfg
-    learned, body = bench.empty_map(), bench.robot.body
-    rng = generator(cfg["seed"], "babbling")
-    babbling = Babbling(bench.guided, Curiosity(**cfg["curiosity"]), body.speed, rng)
-    settings = LearningRun(**cfg["learning"])
-    perception = bench.perception(bench.field)
-    learner = Learner(bench.robot, perception, bench.dynamics, learned, settings)
-    run.record(learn_map(learner, babbling), bench.field)
-    told = fingerprint(body, bench.field, bench.space)
-    save_map(run.folder / "map.npz", learned, _outline(learner), told)
-    metrics = learn_map_metrics(learned, learner.shown)
-    limit = settings.limit if run.robot_time_s >= settings.limit else None
+    if run.cfg["guide"]:
+        guide_by_hand(run)
+    learner, samples = learning(run.bench)
+    run.record(samples, run.bench.field)
+    save_map(run.folder / "map.npz", learned_by(run.bench, learner))
+    metrics = learn_map_metrics(learner.learned, learner.shown)
+    limit = learner.run.limit if run.robot_time_s >= learner.run.limit else None
     return Outcome(
         metrics=metrics,
         rows=map_card(metrics),
         next=" ".join(["imitate reach map={run}", *run.body_words]),
         complaint=complaint(metrics, limit),
     )
+
+
+def guide_by_hand(run: Run) -> None:
+    """Replace the configured guided postures by those the arm is led to now."""
+    robot = run.bench.robot
+    postures = guide(robot.arm, run.cfg["robot"]["name"], ask=typed_answer)
+    run.bench.guided, robot.home = postures, postures.mean(axis=0)
+    write_guided(run.folder / "guided.yaml", postures)
+
+
+def learning(bench: Bench) -> tuple[Learner, Iterator[Sample]]:
+    """Whoever learns, and the steps of its learning."""
+    cfg, robot = bench.cfg, bench.robot
+    rng = generator(cfg["seed"], "babbling")
+    babbling = Babbling(bench.guided, Curiosity(**cfg["curiosity"]), robot.body.speed, rng)
+    perception, settings = bench.perception(bench.field), LearningRun(**cfg["learning"])
+    learner = Learner(robot, perception, bench.dynamics, bench.empty_map(), settings)
+    return learner, learn_map(learner, babbling)
+
+
+def learned_by(bench: Bench, learner: Learner) -> LearnedMap:
+    """The map, with the border of where the hand was seen within reach."""
+    told = fingerprint(bench.robot.body, bench.field, bench.space)
+    return LearnedMap(learner.learned, _outline(learner), told)
 
 
 def map_card(metrics: dict[str, Any]) -> list[tuple[str, str]]:
@@ -76,7 +98,11 @@ def complaint(metrics: dict[str, Any], limit: float | None) -> str | None:
 
 def _outline(learner: Learner) -> Array:
     places = np.array(learner.places).reshape(-1, 2)
-    return outline(places) if len(places) else places
+    if not len(places):
+        return places
+    field = learner.learned.field
+    low, high = np.array((field.left, 0.0)), np.array(field.size, dtype=float)
+    return clip_outline(outline(places), low, high)
 
 
 def _px(metrics: dict[str, Any], median: str, largest: str | None = None) -> str:

@@ -1,5 +1,6 @@
 """imitate reach: reach seen targets with a learned map."""
 
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -7,7 +8,7 @@ import hydra
 import numpy as np
 from omegaconf import DictConfig
 
-from cli.build import generator
+from cli.build import Bench, generator
 from cli.errors import UserError
 from cli.job import job
 from cli.run import Outcome, Run
@@ -15,8 +16,9 @@ from imitation.analysis.metrics import ReachMetrics
 from imitation.arrays import Array
 from imitation.hull import depth_inside
 from imitation.recording.map_file import LearnedMap, differences, fingerprint, load_map
+from imitation.sample import Sample
 from imitation.stages.reach import Reaching, Trial, reach
-from imitation.stages.trials import from_random_starts, random_targets
+from imitation.stages.trials import from_learned_postures, random_targets
 
 OF_THE_JOB = ("required", "inset", "border", "force")  # keys of reach: that the stage needs not
 CONTROLS = ("noise", "nearest")  # nothing is asked of them
@@ -30,26 +32,30 @@ def main(cfg: DictConfig) -> int:
 
 def reach_targets(run: Run) -> Outcome:
     """Reach as many targets as asked for."""
-    bench, cfg, settings = run.bench, run.cfg, run.cfg["reach"]
-    stored = the_map(run)
-    learned, name = stored.map, cfg["controller"]["name"]
-    trials = trials_of(run, stored)
-    reaching = Reaching(**{key: settings[key] for key in settings if key not in OF_THE_JOB})
-    holding = name not in (*CONTROLS, "yuragi")
+    stored, name = the_map(run), run.cfg["controller"]["name"]
+    samples, metrics = reaching(run.bench, stored, trials_of(run.bench, stored))
+    run.record(samples, stored.map.field, metrics.add)
+    wanted = required(run.cfg["reach"]["required"], name)
+    return outcome(metrics.result(name), metrics.holding, wanted)
+
+
+def reaching(
+    bench: Bench, stored: LearnedMap, trials: Sequence[Trial]
+) -> tuple[Iterator[Sample], ReachMetrics]:
+    """The steps of the trials, and what will measure them."""
+    cfg, learned = bench.cfg["reach"], stored.map
+    settings = Reaching(**{key: cfg[key] for key in cfg if key not in OF_THE_JOB})
+    robot, perception = bench.robot, bench.perception(learned.field)
     metrics = ReachMetrics(
         learned,
         stored.outline,
-        bench.robot.body,
-        settings["border"],
-        settings["hold_frames"],
-        holding,
+        robot.body,
+        cfg["border"],
+        cfg["hold_frames"],
+        holding=bench.cfg["controller"]["name"] not in (*CONTROLS, "yuragi"),
     )
-    perception = bench.perception(learned.field)
-    samples = reach(
-        bench.robot, perception, learned, bench.dynamics, bench.controller, trials, reaching
-    )
-    run.record(samples, learned.field, metrics.add)
-    return outcome(metrics.result(name), holding, required(settings["required"], name))
+    samples = reach(robot, perception, learned, bench.dynamics, bench.controller, trials, settings)
+    return samples, metrics
 
 
 def the_map(run: Run) -> LearnedMap:
@@ -68,9 +74,9 @@ def the_map(run: Run) -> LearnedMap:
     return stored
 
 
-def trials_of(run: Run, stored: LearnedMap) -> list[Trial]:
+def trials_of(bench: Bench, stored: LearnedMap) -> list[Trial]:
     """The trials that the configuration asks for."""
-    cfg, bench = run.cfg, run.bench
+    cfg = bench.cfg
     targets_rng, starts_rng = generator(cfg["seed"], "targets"), generator(cfg["seed"], "starts")
     count, inset = cfg["trials"], cfg["reach"]["inset"]
     if cfg["area"] is not None:
@@ -85,7 +91,7 @@ def trials_of(run: Run, stored: LearnedMap) -> list[Trial]:
                 f"target [{target[0]:g}, {target[1]:g}] px lies outside the learned region "
                 f"({_extent(stored.outline)}); type reach.force=true to reach for it all the same"
             )
-    return from_random_starts(targets, bench.guided, starts_rng)
+    return from_learned_postures(targets, stored.map, starts_rng)
 
 
 def required(asked: float | None, controller: str) -> float:

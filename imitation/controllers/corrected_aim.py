@@ -54,6 +54,7 @@ class CorrectedAim:
         self._selection = learned.field.within(target, self.bandwidth * side)
         self._history = PostureHistory(2.0)
         self._error: Array | None = None
+        self._expected = target
         self._frame_ns = -1
 
     def decide(

@@ -48,11 +48,12 @@ class LearnedMap:
     fingerprint: dict[str, Any]
 
 
-def save_map(path: Path, learned: VisuoMotorMap, outline: Array, told: dict[str, Any]) -> None:
-    """Write a map; `told` is the body's fingerprint."""
+def save_map(path: Path, stored: LearnedMap) -> None:
+    """Write a map."""
+    learned = stored.map
     facts = {
         "version": VERSION,
-        "fingerprint": told,
+        "fingerprint": stored.fingerprint,
         "learning": learned.learning.__dict__,
         "neurons": learned.neurons,
     }
@@ -61,7 +62,7 @@ def save_map(path: Path, learned: VisuoMotorMap, outline: Array, told: dict[str,
         postures=learned.postures,
         places=learned.places,
         visits=learned.visits,
-        outline=outline,
+        outline=stored.outline,
         facts=np.array(json.dumps(facts)),
     )
 

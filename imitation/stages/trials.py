@@ -1,12 +1,13 @@
 """Where trials of reaching begin and what they reach for."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable
 
 import numpy as np
 
 from imitation.arrays import Array
 from imitation.hull import clip_outline, uniform_inside
 from imitation.stages.reach import Trial
+from imitation.visuo_motor_map import VisuoMotorMap
 
 
 def random_targets(
@@ -28,11 +29,14 @@ def random_targets(
     return [uniform_inside(within, rng) for _ in range(count)]
 
 
-def from_random_starts(
-    targets: Sequence[Array], guided: Array, rng: np.random.Generator
+def from_learned_postures(
+    targets: Iterable[Array], learned: VisuoMotorMap, rng: np.random.Generator
 ) -> list[Trial]:
-    """A trial for each target, from a random mixture of the guided postures (n, n_joints) [rad]."""
-    mixtures = rng.dirichlet(np.ones(len(guided)), len(targets))
-    return [
-        Trial(target, mixture @ guided) for target, mixture in zip(targets, mixtures, strict=True)
-    ]
+    """A trial for each target, from a learned posture that was not seen nearest to it."""
+    postures, places = learned.memories()
+    trials = []
+    for target in targets:
+        nearest = int(np.argmin(np.linalg.norm(places - target, axis=1)))
+        others = np.delete(np.arange(len(postures)), nearest)
+        trials.append(Trial(target, postures[rng.choice(others)]))
+    return trials
