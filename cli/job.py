@@ -13,7 +13,7 @@ from cli.build import Config
 from cli.check import checked
 from cli.errors import BAD_INPUT, DEVICE, DONE, INTERRUPTED, NOT_TRUE, is_refusal, say
 from cli.folder import make_run_folder
-from cli.interruption import sigterm_like_ctrl_c
+from cli.interruption import STOP, sigterm_like_ctrl_c
 from cli.report import show
 from cli.run import Outcome, Run
 from imitation.recording.mcap_recording import RecorderError
@@ -30,29 +30,28 @@ def job(command: str, composed: DictConfig, work: Work) -> int:
 
 def attempt(action: Callable[[], int]) -> int:
     """The exit code of `action`, whatever happens in it, kept for whoever launched the job."""
+    sweep = _sweep()
     with sigterm_like_ctrl_c():
         try:
-            code = action()
+            code = INTERRUPTED if sweep and (sweep / STOP).exists() else action()
         except KeyboardInterrupt:
-            say("interrupted")
+            _say("interrupted")
             code = INTERRUPTED
         except Exception as error:
             code = explain(error)
     codes.append(code)
-    if _in_sweep():
-        _tell_sweep(code)
-        if code == INTERRUPTED:
-            raise KeyboardInterrupt  # the jobs to come are not wanted either
+    if sweep:
+        _tell(sweep, code)
     return code
 
 
 def explain(error: Exception) -> int:
     """Say what went wrong, and return the exit code."""
     if is_refusal(error):
-        say(str(error))
+        _say(str(error))
         return BAD_INPUT
     if isinstance(error, RecorderError):
-        say(str(error))
+        _say(str(error))
         return DEVICE
     traceback.print_exception(error)  # a bug of this program, nothing a user could mend
     return NOT_TRUE
@@ -60,7 +59,7 @@ def explain(error: Exception) -> int:
 
 def _run(command: str, cfg: Config, work: Work) -> int:
     typed = list(HydraConfig.get().overrides.task)
-    run = Run(command, cfg, make_run_folder(_out(cfg), command), typed)
+    run = Run(command, cfg, make_run_folder(_out(cfg), command), typed, _sweep())
     try:
         outcome = work(run)
         return _finish(run, outcome)
@@ -68,7 +67,7 @@ def _run(command: str, cfg: Config, work: Work) -> int:
         if not run.status:
             run.write_metrics("interrupted", {})
         run.log.info("interrupted")
-        say(f"what was recorded until then is in {run.folder}")
+        _say(f"what was recorded until then is in {run.folder}")
         raise
     except Exception:
         if not run.status:
@@ -84,25 +83,36 @@ def _finish(run: Run, outcome: Outcome) -> int:
     run.draw()
     show(run.command, run.folder, outcome)
     if outcome.complaint:
-        say(outcome.complaint)
+        _say(outcome.complaint)
         return NOT_TRUE
     return DONE
 
 
-def _in_sweep() -> bool:
-    return HydraConfig.initialized() and HydraConfig.get().mode == RunMode.MULTIRUN
+def _say(text: str) -> None:
+    """Say it, and in a sweep which job it is about."""
+    say(f"job {HydraConfig.get().job.num}: {text}" if _sweep() else text)
+
+
+def _sweep() -> Path | None:
+    """Folder of the sweep whose job this is; None outside a sweep."""
+    if not HydraConfig.initialized() or HydraConfig.get().mode != RunMode.MULTIRUN:
+        return None
+    return Path(HydraConfig.get().sweep.dir)
 
 
 def _out(cfg: Config) -> str | None:
-    if not _in_sweep():
-        out = cfg["out"]
-        return None if out is None else str(out)
-    return str(Path(HydraConfig.get().sweep.dir, str(HydraConfig.get().job.num)))
+    if sweep := _sweep():
+        return str(sweep / str(HydraConfig.get().job.num))
+    return None if cfg["out"] is None else str(cfg["out"])
 
 
-def _tell_sweep(code: int) -> None:
-    """Leave the exit code where whoever launched the sweep finds it, on whatever machine."""
+def _tell(sweep: Path, code: int) -> None:
+    """Leave the exit code where whoever launched the sweep finds it, on whatever machine.
+
+    The jobs to come are not wanted either when this one was interrupted.
+    """
     hydra = HydraConfig.get()
     told = {"job": hydra.job.num, "overrides": list(hydra.overrides.task), "exit_code": code}
-    path = Path(hydra.sweep.dir, f".job-{hydra.job.num}.json")
-    path.write_text(json.dumps(told))
+    (sweep / f".job-{hydra.job.num}.json").write_text(json.dumps(told))
+    if code == INTERRUPTED:
+        (sweep / STOP).touch()

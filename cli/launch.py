@@ -6,7 +6,7 @@ from collections.abc import Callable
 from importlib import import_module
 
 from cli.errors import BAD_INPUT, DONE, INTERRUPTED, UserError, say
-from cli.interruption import sigterm_like_ctrl_c
+from cli.interruption import sigterm_like_ctrl_c, waiting_for_the_jobs
 from cli.words import Words, quoted, understand
 
 # Runs, logs and configurations are kept by cli/run.py: Hydra makes no folder and no log.
@@ -52,7 +52,8 @@ def _sweep(command: str, words: Words, main: Callable[[], None]) -> int:
 
     folder = make_run_folder(out_of(words.overrides), command)
     where = (f"hydra.sweep.dir={quoted(str(folder))}", "hydra.sweep.subdir=.")
-    _call(main, [*words.overrides, *QUIET, *where, *words.flags])
+    with waiting_for_the_jobs(folder):
+        _call(main, [*words.overrides, *QUIET, *where, *words.flags])
     return summary(folder)
 
 

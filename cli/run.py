@@ -47,12 +47,14 @@ class Run:
         cfg: The composed configuration, checked.
         folder: Made for this run alone.
         typed: The KEY=VALUE words.
+        sweep: Folder of the sweep whose job this is; None outside a sweep.
     """
 
     command: str
     cfg: Config
     folder: Path
     typed: Sequence[str]
+    sweep: Path | None
     log: logging.Logger = field(init=False)
     status: str = ""  # as metrics.json says it; empty until it is written
     steps: int = 0
@@ -89,6 +91,7 @@ class Run:
         robot, attached = self.bench.robot, dict(self._attachments())
         watchers = [watch] if watch else []
         with ExitStack() as open_until_the_end:
+            interruption = open_until_the_end.enter_context(Interruption(self.sweep))
             recorder = open_until_the_end.enter_context(self._recorder(visual_field, attached))
             if self.cfg["recording"]["live"]:
                 from imitation.recording.rerun_view import LiveView  # takes a second
@@ -97,7 +100,6 @@ class Run:
                 open_until_the_end.enter_context(closing(live))
                 watchers.append(live.show)
             report = open_until_the_end.enter_context(ProgressReport(self.command))
-            interruption = open_until_the_end.enter_context(Interruption())
             for sample in samples:
                 truths = robot.truth()
                 for one in (recorder.write, *watchers):

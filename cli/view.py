@@ -1,5 +1,6 @@
 """imitate view: look at a recording in Rerun."""
 
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -12,6 +13,8 @@ def view(run: Path, png: Path | None) -> int:
     """Open a run's `run.rrd`, made now if it is missing, or save a picture of it as `png`."""
     rrd = _rrd_of(run)
     if png is None:
+        if not (os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY")):
+            raise UserError(f"no screen here; type imitate view {run} --screenshot view.png")
         return subprocess.run([sys.executable, "-m", "rerun_cli", str(rrd)], check=False).returncode
     try:
         png.absolute().parent.mkdir(parents=True, exist_ok=True)

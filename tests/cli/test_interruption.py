@@ -41,10 +41,16 @@ def test_a_signal_leaves_a_whole_recording(tmp_path, learned, number):
     assert metrics["steps"] == sum(1 for _ in recording.messages("/joint_states"))
 
 
-def test_a_signal_ends_a_whole_sweep(tmp_path, learned):
+@pytest.mark.parametrize("launcher", ["basic", pytest.param("joblib", marks=pytest.mark.slow)])
+def test_a_signal_ends_a_whole_sweep(tmp_path, learned, launcher):
     words = ["reach", "robot=ideal", f"map={learned}", "controller=noise", "trials=99", "out=sweep"]
-    process = started(tmp_path, [*words, "-m", "seed=0,1"])
-    process.send_signal(signal.SIGINT)
-    process.communicate(timeout=30)
+    process = started(tmp_path, [*words, "-m", "seed=range(0,4)", f"hydra/launcher={launcher}"])
+    process.send_signal(signal.SIGTERM)
+    process.communicate(timeout=60)
     assert process.returncode == 130
-    assert not (tmp_path / "sweep" / "1").exists()
+    told = json.loads((tmp_path / "sweep" / "sweep.json").read_text())
+    assert [one["exit_code"] for one in told["jobs"]] == [130] * 4
+    begun = list((tmp_path / "sweep").glob("*/run.mcap"))
+    assert begun
+    assert all(Recording.open(path).whole for path in begun)
+    assert not (tmp_path / "sweep" / "3").exists()

@@ -19,6 +19,7 @@ def test_a_sweep_has_one_folder_a_job(imitate):
 def test_a_job_that_fails_does_not_stop_the_others_and_sets_the_exit_code(imitate):
     result = imitate("learn-map", "-m", "learning.limit=0.2,-1,120", "robot=ideal", "out=sweep")
     assert result.exit_code == 2
+    assert "job 1: learning.limit=-1" in result.stderr
     told = json.loads((imitate.folder / "sweep/sweep.json").read_text())
     assert [one["exit_code"] for one in told["jobs"]] == [1, 2, 0]
 
