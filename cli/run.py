@@ -3,6 +3,7 @@
 import json
 import logging
 import math
+import os
 import platform
 import shlex
 import time
@@ -114,6 +115,7 @@ class Run:
     def draw(self) -> None:
         """Derive run.rrd; a run without a step has nothing to show."""
         if self.steps:
+            os.environ.setdefault("RUST_LOG", "error")  # Rerun warns of meshes it does not find
             from imitation.recording.rerun_view import derive  # takes a second
 
             derive(self.folder, self.folder / "run.rrd")

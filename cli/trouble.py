@@ -50,6 +50,9 @@ def _not_composed(command: str, error: ConfigCompositionException) -> str:
         return f"{several[1]} is several values: add -m to sweep over them, or write key=[a,b]"
     if mandatory := re.search(r"You must specify '([\w/]+)'", text):
         return missing(command, mandatory[1])
+    if unfit := re.match(r"In '(\w+)/(\w+)': Could not override '(\w+)'", text):
+        group, choice, missed = unfit.groups()
+        return f"{group}={choice} does not fit {command}: it sets {missed}, which {command} lacks"
     unknown = re.match(r"Could not (?:override|append to config|delete).*?'(\S+?)'", text)
     if unknown:
         known = [*groups_of(command), *comments(command)]
