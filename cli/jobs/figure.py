@@ -18,7 +18,7 @@ from cli.figures import FIGURES
 from cli.folder import writable
 from cli.job import attempt
 from imitation.analysis.claims import Claim, write_claims
-from imitation.analysis.figure_style import save
+from imitation.analysis.figure_style import mark_demo, save
 
 
 @hydra.main(version_base="1.3", config_path="pkg://conf", config_name="figure")
@@ -36,6 +36,8 @@ def draw(cfg: Config) -> int:
     count = cfg["demo_seeds"] if demo else cfg["seeds"]
     seeds = range(cfg["first_seed"], cfg["first_seed"] + count)
     figure, claims = drawing(seeds, made(cfg["figure"][name]))
+    if demo:
+        mark_demo(figure, count)
     files = [*save(figure, folder, name), write_claims(folder, name, claims, count, demo)]
     show(f"{name}{f' (demo, n = {count})' if demo else ''}", claims, files)
     failed = [claim for claim in claims if not claim.passed]

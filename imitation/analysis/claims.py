@@ -3,7 +3,7 @@
 import json
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Literal
 
@@ -83,6 +83,13 @@ def value_claim(
         unit,
         bool(passed),
     )
+
+
+def surely(claim: Claim) -> Claim:
+    """`claim`, come true only when the whole interval keeps to the bound."""
+    if claim.comparison == "at least":
+        return replace(claim, passed=bool(claim.low >= claim.asked))
+    return replace(claim, passed=bool(claim.high <= claim.asked))
 
 
 def write_claims(

@@ -7,7 +7,11 @@ from typing import Any
 import matplotlib
 from matplotlib.figure import Figure
 
+from imitation.analysis.claims import Claim
+
 matplotlib.use("Agg")
+
+Drawn = tuple[Figure, list[Claim]]  # a figure and what it claims
 
 FULL_WIDTH, HALF_WIDTH = 7.16, 3.5  # of a two-column page [inch]
 
@@ -52,6 +56,20 @@ STYLE: dict[Any, Any] = {
 def style() -> AbstractContextManager[None]:
     """Within it, figures are drawn in the common style."""
     return matplotlib.rc_context(STYLE)
+
+
+def mark_demo(figure: Figure, seeds: int) -> None:
+    """Say in the picture that it shows a few seeds only, too few to judge by."""
+    with style():
+        figure.text(
+            0.995,
+            0.005,
+            f"demo, n = {seeds}",
+            ha="right",
+            va="bottom",
+            color=COLOURS[1],
+            fontsize=8,
+        )
 
 
 def save(figure: Figure, folder: Path, name: str) -> list[Path]:

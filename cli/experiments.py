@@ -1,0 +1,142 @@
+"""Runs that figures are made of: learn a map, reach with it; nothing is recorded."""
+
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from inspect import signature
+
+import numpy as np
+from hydra import compose, initialize_config_module
+from hydra.core.global_hydra import GlobalHydra
+
+from cli.build import Bench, Config, generator
+from cli.check import checked
+from imitation.analysis.reached import ReachedTrial, Reaches, Situation
+from imitation.arrays import Array
+from imitation.sample import Sample
+from imitation.stages.babbling import Babbling, Curiosity
+from imitation.stages.learn_map import Learner, LearningRun, learn_map
+from imitation.stages.reach import Reaching, Trial, reach
+from imitation.visuo_motor_map import VisuoMotorMap
+
+
+@dataclass(frozen=True)
+class Experiment:
+    """What the runs behind a figure are told, as words after their commands."""
+
+    both: Sequence[str]  # learn-map and reach
+    learning: Sequence[str]  # learn-map alone
+    reaching: Sequence[str]  # reach alone
+    workers: int  # runs at a time
+
+    @contextmanager
+    def learning_bench(self, seed: int) -> Iterator[Bench]:
+        """The parts of a learn-map run, closed at the end."""
+        yield from _opened("learn-map", [f"seed={seed}", *self.both, *self.learning])
+
+    @contextmanager
+    def reaching_bench(self, seed: int, *more: str) -> Iterator[Bench]:
+        """The parts of a reach run told `more` words, closed at the end."""
+        words = [f"seed={seed}", "map=given", *self.both, *self.reaching, *more]
+        yield from _opened("reach", words)
+
+
+def composed(command: str, words: Sequence[str]) -> Config:
+    """A command's configuration with `words` typed after it, checked."""
+    name = command.replace("-", "_")
+    if GlobalHydra.instance().is_initialized():
+        return checked(command, compose(name, list(words)))
+    with initialize_config_module("conf", version_base="1.3"):
+        return checked(command, compose(name, list(words)))
+
+
+def learned_map(seed: int, experiment: Experiment) -> VisuoMotorMap:
+    """The map of a learn-map run."""
+    with experiment.learning_bench(seed) as bench:
+        learned = bench.empty_map()
+        for _ in learning(seed, bench, learned):
+            pass
+    return learned
+
+
+def learning(seed: int, bench: Bench, learned: VisuoMotorMap) -> Iterator[Sample]:
+    """The steps of a learn-map run, which fill `learned`."""
+    cfg = bench.cfg
+    curiosity, rng = Curiosity(**cfg["curiosity"]), generator(seed, "babbling")
+    babbling = Babbling(bench.guided, curiosity, bench.robot.body.speed, rng)
+    settings = LearningRun(**cfg["learning"])
+    perception = bench.perception(bench.field)
+    return learn_map(Learner(bench.robot, perception, bench.dynamics, learned, settings), babbling)
+
+
+def reaching(bench: Bench, learned: VisuoMotorMap, trials: Sequence[Trial]) -> Iterator[Sample]:
+    """The steps of a reach run."""
+    perception = bench.perception(learned.field)
+    return reach(
+        bench.robot, perception, learned, bench.dynamics, bench.controller, trials, rules(bench)
+    )
+
+
+def rules(bench: Bench) -> Reaching:
+    """When the trials of a reach run end."""
+    settings = bench.cfg["reach"]
+    asked = [name for name in signature(Reaching).parameters if name in settings]
+    return Reaching(**{name: settings[name] for name in asked})
+
+
+def trials_for(seed: int, learned: VisuoMotorMap, target: Array, count: int) -> list[Trial]:
+    """Trials from different learned postures, none of them the one seen nearest to `target`."""
+    postures, places = learned.memories()
+    nearest = np.argmin(np.linalg.norm(places - target, axis=1))
+    others = np.delete(np.arange(len(postures)), nearest)
+    drawn = np.resize(generator(seed, "starts").permutation(others), count)
+    return [Trial(target, postures[one]) for one in drawn]
+
+
+def reached(
+    seed: int,
+    learned: VisuoMotorMap,
+    situations: Sequence[Situation],
+    count: int,
+    experiment: Experiment,
+    *words: str,
+) -> tuple[Reaches, ...]:
+    """Reaches for the target of each situation, the same starts whatever the controller.
+
+    Args:
+        seed: Of the run.
+        learned: The map.
+        situations: What to reach for.
+        count: Trials for each target.
+        experiment: What the run is told.
+        words: More of that, such as the controller.
+    """
+    trials = [trial for one in situations for trial in trials_for(seed, learned, one.target, count)]
+    with experiment.reaching_bench(seed, *words) as bench:
+        found = followed(reaching(bench, learned, trials), rules(bench).limit)
+    return tuple(
+        Reaches(one, tuple(found[i * count : (i + 1) * count])) for i, one in enumerate(situations)
+    )
+
+
+def radius_of(bench: Bench, learned: VisuoMotorMap) -> float:
+    """Attractors of areas centred nearer than this to the target take part in reaching [px]."""
+    return float(bench.cfg["controller"]["radius"] * learned.field.side)
+
+
+def followed(samples: Iterator[Sample], limit: float) -> list[ReachedTrial]:
+    """The trials of a reach run, each of which ends after `limit` seconds."""
+    found: list[ReachedTrial] = []
+    for sample in samples:
+        if any(event.kind == "episode" for event in sample.events):
+            found.append(ReachedTrial(limit))
+        found[-1].add(sample)
+    return found
+
+
+def _opened(command: str, words: Sequence[str]) -> Iterator[Bench]:
+    bench = Bench(composed(command, words))
+    try:
+        yield bench
+    finally:
+        bench.robot.close()
