@@ -65,8 +65,10 @@ class Guard:
             posture: Present posture, (n_joints,) [rad].
             period: Control period [s].
         """
-        if not (np.isfinite(wanted).all() and np.isfinite(posture).all()):
+        if not np.isfinite(posture).all():
             return self._braked(before, period), ("not a number",)
+        if not np.isfinite(wanted).all():
+            return self._braked_clear(before, posture, period), ("not a number",)
         reasons: list[str] = []
         # All joints are slowed together, so that the arm keeps its direction.
         excess = float(np.max(np.abs(wanted) / self.speed))
@@ -74,10 +76,10 @@ class Guard:
         if excess > 1.0 + 1e-9:
             reasons.append("speed")
         ramped = self._ramped(velocity, before, period)
-        if not np.allclose(ramped, velocity, rtol=0, atol=1e-9):
+        if _differ(ramped, velocity):
             reasons.append("acceleration")
         stopping = self._able_to_stop_at_limits(ramped, posture, period)
-        if not np.allclose(stopping, ramped, rtol=0, atol=1e-9):
+        if _differ(stopping, ramped):
             reasons.append("joint limit")
         if self._too_near(stopping, posture, period):
             stopping = self._braked_clear(before, posture, period)
@@ -94,28 +96,28 @@ class Guard:
         return np.sign(before) * np.maximum(np.abs(before) - self.acceleration * period, 0.0)
 
     def _able_to_stop_at_limits(self, velocity: Array, posture: Array, period: float) -> Array:
-        up = np.maximum(self.upper - posture - self.margin, 0.0)
-        down = np.maximum(posture - self.lower - self.margin, 0.0)
-        return np.clip(
-            velocity,
-            -fastest_stoppable(down, self.acceleration, period),
-            fastest_stoppable(up, self.acceleration, period),
-        )
+        room = np.array((posture - self.lower, self.upper - posture)) - self.margin
+        down, up = fastest_stoppable(np.maximum(room, 0.0), self.acceleration, period)
+        return np.asarray(np.minimum(np.maximum(velocity, -down), up))
 
     def _too_near(self, velocity: Array, posture: Array, period: float) -> bool:
         if self.surroundings is None:
             return False
-        now = float(self.surroundings.clearance(posture[None])[0])
+        along = self._least(self._together_to_rest(velocity, posture, period))
+        if along >= self.least_clearance:
+            return False
         # From too near, the way out is open.
-        enough = min(self.least_clearance, now)
-        ways = (self._together_to_rest, self._each_to_rest)
-        return not any(self._least(way(velocity, posture, period)) >= enough for way in ways)
+        enough = min(self.least_clearance, self._least(posture[None]))
+        apart = self._least(self._each_to_rest(velocity, posture, period))
+        return max(along, apart) < enough
 
     def _braked_clear(self, before: Array, posture: Array, period: float) -> Array:
         """Of the two ways to brake, the first step of the one that keeps more clearance."""
+        each = self._braked(before, period)
+        if self.surroundings is None:
+            return each
         step = self.acceleration * period
         together = before * max(0.0, 1.0 - 1.0 / max(float(np.max(np.abs(before) / step)), 1.0))
-        each = self._braked(before, period)
         along = self._least(self._together_to_rest(together, posture, period))
         apart = self._least(self._each_to_rest(each, posture, period))
         return together if along >= apart else each
@@ -136,3 +138,7 @@ class Guard:
         periods = np.arange(max(np.ceil(np.max(np.abs(velocity) / step)), 1))
         speeds = np.maximum(np.abs(velocity) - periods[:, None] * step, 0.0)
         return np.asarray(posture + np.cumsum(np.sign(velocity) * speeds, axis=0) * period)
+
+
+def _differ(one: Array, other: Array) -> bool:
+    return bool(np.abs(one - other).max() > 1e-9)

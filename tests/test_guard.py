@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays
 
@@ -223,6 +223,8 @@ def katana() -> TableAndBase:
     return TableAndBase(chain, np.array([0.04, 0.04, 0.02]), 0.0, np.zeros(2), 0.06, 0.15)
 
 
+# What is no number arrives while only braking in proportion keeps clear.
+@example([(np.array([0.0, 0.0, -1.0, -1.0, 0.0]), 9), (np.full(JOINTS, np.inf), 4)])
 @settings(max_examples=40, deadline=None)
 @given(wishes)
 def test_whatever_is_asked_the_katana_keeps_clear_of_table_and_base(katana, wanted):

@@ -19,6 +19,13 @@ def rotation_about(axis: Array, angle: float) -> Array:
     return np.asarray(np.eye(3) + np.sin(angle) * cross + (1 - np.cos(angle)) * cross @ cross)
 
 
+def transform(turn: Array, offset: Array) -> Array:
+    """Homogeneous matrix of a rotation (3, 3) and an offset (3,) [m], (4, 4)."""
+    matrix = np.eye(4)
+    matrix[:3, :3], matrix[:3, 3] = turn, offset
+    return matrix
+
+
 def rotation_of_rpy(roll: float, pitch: float, yaw: float) -> Array:
     """Rotation of URDF's fixed-axis roll, pitch, yaw [rad], (3, 3)."""
     x, y, z = np.eye(3)
@@ -93,9 +100,8 @@ class KinematicChain:
         if unknown:
             raise ValueError(f"{urdf.name} has no joint {unknown[0]}; it has {sorted(by_name)}")
         self.limits = [by_name[name] for name in joint_names]
-        self._base = base
-        self._order: list[tuple[Joint, int]] = []  # joint, its place in the posture or -1
-        slot = {name: place for place, name in enumerate(joint_names)}
+        self._base = transform(np.eye(3), base)
+        self._order: list[Joint] = []  # parents before children
         reached: set[str] = set()
         for link, _ in points:
             path = []
@@ -103,27 +109,33 @@ class KinematicChain:
                 path.append(by_child[link])
                 reached.add(link)
                 link = by_child[link].parent
-            self._order += [(joint, slot.get(joint.name, -1)) for joint in reversed(path)]
-        self._points = points
+            self._order += reversed(path)
+        self._points = [(link, np.array((*point, 1.0))[:, None]) for link, point in points]
+        self._split(joint_names)
+
+    def _split(self, joint_names: tuple[str, ...]) -> None:
+        """Each joint's matrix as a fixed part and those that its angle's sine and versine scale."""
+        slot = {name: place for place, name in enumerate(joint_names)}
+        self._slots = [slot.get(joint.name, 0) for joint in self._order]
+        parts = np.zeros((3, len(self._order), 1, 4, 4))
+        for number, joint in enumerate(self._order):
+            parts[0, number] = transform(joint.turn, joint.offset)
+            if joint.name in slot:
+                parts[1, number, 0, :3, :3] = joint.turn @ joint.cross
+                parts[2, number, 0, :3, :3] = joint.turn @ joint.cross @ joint.cross
+        self._fixed, self._by_sine, self._by_versine = parts
 
     def positions(self, posture: Array) -> Array:
         """The points at `posture` (..., n_joints) [rad], (..., n_points, 3) [m]."""
-        eye, base = np.eye(3), np.broadcast_to(self._base, (*posture.shape[:-1], 3))
-        frames: dict[str, tuple[Array, Array]] = {}
-        sines = np.sin(posture)[..., None, None]
-        versines = 1 - np.cos(posture)[..., None, None]
-        for joint, place in self._order:
-            turn, offset = frames.get(joint.parent, (eye, base))
-            offset = offset + turn @ joint.offset
-            turn = turn @ joint.turn
-            if place >= 0:
-                cross = joint.cross
-                sine, versine = sines[..., place, :, :], versines[..., place, :, :]
-                turn = turn @ (eye + sine * cross + versine * (cross @ cross))
-            frames[joint.child] = (turn, offset)
-        root = (eye, base)
-        placed = ((frames.get(link, root), point) for link, point in self._points)
-        return np.stack([offset + turn @ point for (turn, offset), point in placed], axis=-2)
+        angles = posture.reshape(-1, posture.shape[-1]).T[self._slots, :, None, None]
+        turned = self._by_sine * np.sin(angles) + self._by_versine * (1 - np.cos(angles))
+        root = np.broadcast_to(self._base, (angles.shape[1], 4, 4))
+        frames: dict[str, Array] = {}
+        for joint, step in zip(self._order, self._fixed + turned, strict=True):
+            frames[joint.child] = frames.get(joint.parent, root) @ step
+        placed = [frames.get(link, root) @ point for link, point in self._points]
+        places = np.stack(placed, axis=1)[..., :3, 0]
+        return np.asarray(places.reshape((*posture.shape[:-1], len(self._points), 3)))
 
 
 @dataclass(frozen=True)
@@ -153,8 +165,8 @@ class TableAndBase:
             postures: (n, n_joints) [rad].
         """
         points = self.chain.positions(postures)
-        above = points[..., 2] - self.table_height - self.radii
-        away = np.linalg.norm(points[..., :2] - self.base, axis=-1)
+        height = points[..., 2] - self.radii
+        above, over = height - self.table_height, height - self.base_height
+        away = np.hypot(points[..., 0] - self.base[0], points[..., 1] - self.base[1])
         beside = away - self.base_radius - self.radii
-        over = points[..., 2] - self.base_height - self.radii
         return np.asarray(np.minimum(above, np.maximum(beside, over)).min(axis=-1))
