@@ -53,7 +53,7 @@ class ColourDetector:
 
     def hand_pixels(self, frame: Image) -> Array:
         """Centres of the hand's pixels, (n, 2) [px], pixel centres at +0.5; n = 0 when unseen."""
-        rows, columns = np.nonzero(self.mask(frame))
-        if len(rows) < self.min_pixels:
+        found = cv2.findNonZero(self.mask(frame).view(np.uint8))
+        if found is None or len(found) < self.min_pixels:
             return np.empty((0, 2))
-        return np.column_stack((columns, rows)).astype(np.float64) + 0.5
+        return found.reshape(-1, 2).astype(np.float64) + 0.5

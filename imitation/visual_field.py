@@ -60,12 +60,12 @@ class VisualField:
         if not len(places):
             return np.zeros(self.shape)
         x_edges, y_edges = self.edges
-        columns = np.searchsorted(x_edges, places[:, 0], side="right") - 1
-        rows = np.searchsorted(y_edges, places[:, 1], side="right") - 1
-        inside = (rows >= 0) & (rows < self.rows) & (columns >= 0) & (columns <= self.columns)
-        cells = rows[inside] * self.shape[1] + columns[inside]
-        counts = np.bincount(cells, minlength=self.rows * self.shape[1])
-        return np.asarray(counts.reshape(self.shape) / len(places))
+        columns = np.searchsorted(x_edges, places[:, 0], side="right")
+        rows = np.searchsorted(y_edges, places[:, 1], side="right")
+        # One more row and column on each side take what lies outside.
+        framed = (self.rows + 2, self.columns + 3)
+        counts = np.bincount(rows * framed[1] + columns, minlength=framed[0] * framed[1])
+        return np.asarray(counts.reshape(framed)[1:-1, 1:-1] / len(places))
 
     def area_of(self, place: Array) -> Area | None:
         """The area that `place` (2,) [px] lies in; None outside the visual space."""

@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from imitation.arrays import Array, Index, Mask
 from imitation.visual_field import Area, VisualField
@@ -119,11 +120,10 @@ class VisuoMotorMap:
             selection: V, (rows, columns).
             posture: The present posture, (n_joints,) [rad].
         """
-        areas = np.argwhere((selection > 0) & self.learned)
-        neurons = [self.nearest((int(row), int(column)), posture) for row, column in areas]
-        index = np.column_stack((areas, neurons)).astype(np.int32).reshape(-1, 3)
-        rows, columns, which = index.T
-        return Attractors(self.postures[rows, columns, which], selection[rows, columns], index)
+        areas = np.nonzero((selection > 0) & self.learned)
+        neurons = np.nanargmin(self._distance(areas, posture), axis=-1)
+        index = np.column_stack((*areas, neurons)).astype(np.int32)
+        return Attractors(self.postures[(*areas, neurons)], selection[areas], index)
 
     def nearest(self, area: Area, posture: Array) -> int:
         """The neuron of a learned area's cluster whose posture is nearest to `posture` [rad]."""
@@ -133,8 +133,11 @@ class VisuoMotorMap:
         """All learned postures (n, n_joints) [rad] and where each was seen (n, 2) [px]."""
         return self.postures[self.holds], self.places[self.holds]
 
-    def _distance(self, area: Area, posture: Array) -> Array:
-        """Distance of a cluster's postures to `posture`, (neurons,) [-1..1]; nan while empty."""
+    def _distance(self, area: Area | tuple[NDArray[np.integer], ...], posture: Array) -> Array:
+        """Distance of a cluster's postures to `posture`, (neurons,) [-1..1]; nan while empty.
+
+        Of several areas, given as their rows and their columns, (n, neurons).
+        """
         apart = (self.postures[area] - posture) * 2 / (self.upper - self.lower)
         return np.asarray(np.linalg.norm(apart, axis=-1))
 

@@ -103,6 +103,7 @@ class ReachMetrics:
     trials: list[dict[str, Any]] = field(default_factory=list)
     _truths: dict[int, Array] = field(default_factory=dict)
     _hands: list[Array] = field(default_factory=list)  # true hand since the start, (2,) [px]
+    _path_px: float = 0.0  # its way
     _first: Sample | None = None
 
     def add(self, sample: Sample, truths: Iterable[Truth]) -> None:
@@ -115,6 +116,8 @@ class ReachMetrics:
         trial = self.trials[-1]
         true_hand = self._truths.pop(sample.seen.time_ns, None)
         if true_hand is not None:
+            if self._hands:
+                self._path_px += float(np.linalg.norm(true_hand - self._hands[-1]))
             self._hands.append(true_hand)
         for event in sample.events:
             trial["reached"] |= event.kind == "reached"
@@ -133,7 +136,7 @@ class ReachMetrics:
     def _begin(self, sample: Sample) -> None:
         target = sample.decision.target
         assert target is not None
-        self._first, self._hands = sample, []
+        self._first, self._hands, self._path_px = sample, [], 0.0
         _, places = self.learned.memories()
         active = int(((sample.decision.selection > 0) & self.learned.learned).sum())
         depth = depth_inside(self.outline, target)
@@ -167,10 +170,7 @@ class ReachMetrics:
         trial["time_bound_s"] = float(apart.max())
 
     def _path_length(self) -> float | None:
-        if not self._hands:
-            return None
-        steps = np.diff(np.array(self._hands), axis=0)
-        return float(np.linalg.norm(steps, axis=1).sum())
+        return self._path_px if self._hands else None
 
     def result(self, controller: str) -> dict[str, Any]:
         """What `metrics.json` says."""

@@ -4,6 +4,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+import cv2
 import numpy as np
 
 from imitation.arrays import Array, Image
@@ -200,8 +201,9 @@ class World:
         if key not in self._backdrops:
             self._backdrops = {key: self._render_table(view, projection, size)}
         picture = self._picture(self._client, view, projection, size)
-        drawn = picture.view(np.uint32)[..., 0] != WHITE
-        return np.where(drawn[..., None], picture[..., :3], self._backdrops[key])
+        bare = (picture.view(np.uint32)[..., 0] == WHITE).view(np.uint8)
+        image = cv2.cvtColor(picture, cv2.COLOR_RGBA2RGB)
+        return np.asarray(cv2.copyTo(self._backdrops[key], bare, image), dtype=np.uint8)
 
     def close(self) -> None:
         """End the engine; harmless when repeated."""
