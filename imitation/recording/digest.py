@@ -5,6 +5,7 @@ import struct
 from collections import defaultdict
 
 OVERALL = "all"  # key of the digest over the digests of all topics
+LONG = 2048  # messages from here on are hashed at once, so that none is kept [bytes]
 _ENTRY = struct.Struct("<QQ")  # log_time [ns], length of the data [bytes]
 
 
@@ -22,15 +23,20 @@ class Digest:
     def add(self, topic: str, time_ns: int, data: bytes) -> None:
         """One more message."""
         self._pending[topic] += (_ENTRY.pack(time_ns, len(data)), data)
+        if len(data) >= LONG:
+            self._hash(topic)
 
     def values(self) -> dict[str, str]:
         """Hexadecimal digest of each topic, sorted, and `all` over the lines `digest  topic`."""
-        # Hashed in one piece for each topic: long pieces are hashed without holding the GIL.
-        for topic, pieces in self._pending.items():
-            if topic not in self._hashes:
-                self._hashes[topic] = hashlib.sha256(topic.encode() + b"\0")
-            self._hashes[topic].update(b"".join(pieces))
-        self._pending.clear()
+        for topic in self._pending:
+            self._hash(topic)
         topics = {topic: self._hashes[topic].hexdigest() for topic in sorted(self._hashes)}
         lines = "".join(f"{value}  {topic}\n" for topic, value in topics.items())
         return topics | {OVERALL: hashlib.sha256(lines.encode()).hexdigest()}
+
+    def _hash(self, topic: str) -> None:
+        if topic not in self._hashes:
+            self._hashes[topic] = hashlib.sha256(topic.encode() + b"\0")
+        # In one piece: long pieces are hashed without holding the GIL.
+        self._hashes[topic].update(b"".join(self._pending[topic]))
+        self._pending[topic].clear()
