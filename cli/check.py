@@ -42,6 +42,7 @@ def checked(command: str, composed: DictConfig) -> Config:
         model = COMMANDS[command].model_validate(cfg)
         for path, target in targets(model, ()):
             check_target(target, path, cfg)
+        check_joints(cfg.get("robot"))
     except ValidationError as error:
         raise UserError(in_words(command, error, cfg, ())) from None
     plain: Config = cfg
@@ -97,6 +98,18 @@ def check_target(node: Target, path: tuple[str, ...], cfg: Config) -> None:
         raise UserError(in_words("", error, cfg, path, list(parameters))) from None
 
 
+def check_joints(robot: Config | None) -> None:
+    """Check that what is given for each joint is given for all of them."""
+    if not robot or "joints" not in robot["arm"]:
+        return
+    count = len(robot["arm"]["joints"])
+    given = {f"robot.guided[{i}]": posture for i, posture in enumerate(robot["guided"])}
+    given["robot.arm.force"] = robot["arm"].get("force")
+    for key, values in given.items():
+        if values is not None and len(values) != count:
+            raise UserError(f"{key} needs {count} numbers, one a joint; got {_short(values)}")
+
+
 def in_words(
     command: str, error: ValidationError, cfg: Config, path: tuple[str, ...], valid: Any = ()
 ) -> str:
@@ -117,7 +130,9 @@ def in_words(
 
 
 def _must_be_given(parameter: Parameter) -> bool:
-    return parameter.default is Parameter.empty and parameter.name not in SUPPLIED
+    several = parameter.kind in (Parameter.VAR_POSITIONAL, Parameter.VAR_KEYWORD)
+    has_default = parameter.default is not Parameter.empty
+    return not several and not has_default and parameter.name not in SUPPLIED
 
 
 def _kind(name: str, hints: Mapping[str, Any]) -> Any:

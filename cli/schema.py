@@ -20,6 +20,11 @@ Place = str | int  # a file or folder; one may be named 1
 Posture = Annotated[list[float], Within(min_length=1)]
 
 
+Triple = Annotated[list[float], Within(min_length=3, max_length=3)]
+Colour = Annotated[list[Share], Within(min_length=4, max_length=4)]
+Names = Annotated[list[str], Within(min_length=1)]
+
+
 class Section(BaseModel):
     """Keys that belong together; no other key is taken."""
 
@@ -66,7 +71,7 @@ class GuardPoint(Section):
     """One of `robot.guard.points`."""
 
     link: str
-    at: Annotated[list[float], Within(min_length=3, max_length=3)]
+    at: Triple
     radius: NotNegative
 
 
@@ -193,9 +198,28 @@ class Figure(Section):
 
 COMMANDS: dict[str, type[Section]] = {"learn-map": LearnMap, "reach": Reach, "figure": Figure}
 
+
+class Mark(Section):
+    """`robot.arm.mark`."""
+
+    link: str
+    offset: Triple
+    radius: Annotated[float, Within(gt=0, le=1)]
+    colour: Colour
+
+
+class Table(Section):
+    """`robot.arm.table`."""
+
+    size: Annotated[list[Positive], Within(min_length=3, max_length=3)]
+    centre: Triple
+    colour: Colour
+    friction: NotNegative
+
+
 # Ranges of the parameters of whatever a `_target_` names, by their names.
 RANGES: dict[str, Any] = {
-    "eye": Annotated[list[float], Within(min_length=3, max_length=3)],
+    "eye": Triple,
     "gaze": Pair,
     "noise_px": NotNegative,
     "delay_frames": Whole,
@@ -203,7 +227,11 @@ RANGES: dict[str, Any] = {
     "saturation": ByteRange,
     "value": ByteRange,
     "min_pixels": Count,
-    "base": Annotated[list[float], Within(min_length=3, max_length=3)],
+    "base": Triple,
+    "mark": Mark,
+    "table": Table,
+    "joints": Names,
+    "fingers": list[str],
     "speed": list[Positive] | None,
     "acceleration": list[Positive],
     "force": list[Positive],
@@ -216,6 +244,7 @@ RANGES: dict[str, Any] = {
     "settling": Positive,
     "largest": Positive,
     "gain_per_px": NotNegative,
+    "noise_steps": Count,
     "noise_per_px": NotNegative,
     "radius": Positive,
     "distance_cap": Positive,
