@@ -3,6 +3,7 @@
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
+from functools import cache
 from inspect import signature
 
 import numpy as np
@@ -32,17 +33,17 @@ class Experiment:
     @contextmanager
     def learning_bench(self, seed: int) -> Iterator[Bench]:
         """The parts of a learn-map run, closed at the end."""
-        yield from _opened("learn-map", [f"seed={seed}", *self.both, *self.learning])
+        yield from _opened("learn-map", seed, *self.both, *self.learning)
 
     @contextmanager
     def reaching_bench(self, seed: int, *more: str) -> Iterator[Bench]:
         """The parts of a reach run told `more` words, closed at the end."""
-        words = [f"seed={seed}", "map=given", *self.both, *self.reaching, *more]
-        yield from _opened("reach", words)
+        yield from _opened("reach", seed, "map=given", *self.both, *self.reaching, *more)
 
 
-def composed(command: str, words: Sequence[str]) -> Config:
-    """A command's configuration with `words` typed after it, checked."""
+@cache
+def composed(command: str, *words: str) -> Config:
+    """A command's configuration with `words` typed after it, checked; the same for all seeds."""
     name = command.replace("-", "_")
     if GlobalHydra.instance().is_initialized():
         return checked(command, compose(name, list(words)))
@@ -66,7 +67,8 @@ def learning(seed: int, bench: Bench, learned: VisuoMotorMap) -> Iterator[Sample
     babbling = Babbling(bench.guided, curiosity, bench.robot.body.speed, rng)
     settings = LearningRun(**cfg["learning"])
     perception = bench.perception(bench.field)
-    return learn_map(Learner(bench.robot, perception, bench.dynamics, learned, settings), babbling)
+    learner = Learner(bench.robot, perception, bench.dynamics, learned, settings)
+    yield from learn_map(learner, babbling)
 
 
 def reaching(bench: Bench, learned: VisuoMotorMap, trials: Sequence[Trial]) -> Iterator[Sample]:
@@ -134,8 +136,8 @@ def followed(samples: Iterator[Sample], limit: float) -> list[ReachedTrial]:
     return found
 
 
-def _opened(command: str, words: Sequence[str]) -> Iterator[Bench]:
-    bench = Bench(composed(command, words))
+def _opened(command: str, seed: int, *words: str) -> Iterator[Bench]:
+    bench = Bench({**composed(command, *words), "seed": seed})
     try:
         yield bench
     finally:

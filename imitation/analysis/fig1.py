@@ -74,7 +74,7 @@ def draw_fig1(
 
 def _side(axes: Any, scene: Scene) -> None:
     height, width, _ = scene.side.shape
-    axes.imshow(scene.side, extent=(0, width, height, 0), interpolation="lanczos")
+    axes.imshow(scene.side, extent=(0, width, height, 0))
     for corner in scene.view:
         ray = np.array((scene.camera, corner))
         axes.plot(*ray.T, color=INK, linewidth=0.5, linestyle=(0, (4, 3)))
