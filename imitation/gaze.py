@@ -1,6 +1,7 @@
 """Visual space: the image as it would be if the camera looked along the reference gaze."""
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -31,15 +32,20 @@ class VisualSpace:
     centre: tuple[float, float]  # where the optical axis meets the image [px]
     reference: tuple[float, float]  # pan, tilt of the reference gaze [rad]
 
+    @cached_property
+    def _turn(self) -> Array:
+        """Rotation from the world's axes to those of the reference gaze, (3, 3)."""
+        return rotation(np.asarray(self.reference)).T
+
     def to_visual_space(self, points: Array, gaze: Array) -> Array:
         """Image `points` (n, 2) [px] of a camera at `gaze` [rad], in visual space (n, 2) [px].
 
         A point behind the reference image plane becomes nan.
         """
-        if np.array_equal(gaze, self.reference):
+        if tuple(gaze) == self.reference:
             return points
         rays = np.column_stack(((points - self.centre) / self.focal, np.ones(len(points))))
-        turn = rotation(np.asarray(self.reference)).T @ rotation(np.asarray(gaze))
+        turn = self._turn @ rotation(np.asarray(gaze))
         x, y, depth = turn @ rays.T
         depth = np.where(depth > 0, depth, np.nan)
         return np.column_stack((x / depth, y / depth)) * self.focal + self.centre
@@ -49,6 +55,6 @@ class VisualSpace:
 
         A point behind the camera becomes nan.
         """
-        right, down, forward = rotation(np.asarray(self.reference)).T @ (position - eye)
+        right, down, forward = self._turn @ (position - eye)
         depth = forward if forward > 0 else np.nan
         return np.array((right / depth, down / depth)) * self.focal + self.centre

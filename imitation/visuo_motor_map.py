@@ -121,7 +121,8 @@ class VisuoMotorMap:
             posture: The present posture, (n_joints,) [rad].
         """
         areas = np.nonzero((selection > 0) & self.learned)
-        neurons = np.nanargmin(self._distance(areas, posture), axis=-1)
+        distance = self._distance(areas, posture)
+        neurons = np.where(np.isnan(distance), np.inf, distance).argmin(axis=-1)
         index = np.column_stack((*areas, neurons)).astype(np.int32)
         return Attractors(self.postures[(*areas, neurons)], selection[areas], index)
 

@@ -1,6 +1,7 @@
 """Pictures of the PyBullet world with the pixel convention of the bench."""
 
 from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
 
@@ -23,6 +24,7 @@ def view_matrix(eye: Array, gaze: Array) -> Array:
     return matrix.T.ravel()
 
 
+@cache
 def projection_matrix(space: VisualSpace) -> Array:
     """OpenGL projection matrix of a camera with `space`'s focal length and centre, (16,)."""
     (width, height), f = space.size, space.focal
