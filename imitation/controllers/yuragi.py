@@ -31,6 +31,8 @@ class Yuragi:
         gain_per_px: K; 0 is the control without attractors [1/px].
         noise_per_px: epsilon_N [1/px].
         radius: Attractors of areas whose centre is nearer to the target take part [area sides].
+        noise_steps: Noise is drawn anew after this many control steps; as printed at each. An arm
+            of limited acceleration swallows noise that changes at once.
         noise_along_map: Noise is shaped like the spread of the learned postures; as printed it
             is isotropic in joint space, and leads off the sheet the postures lie on.
         distance_cap: d counts no more than this in A and the noise [px]; inf as printed.
@@ -42,6 +44,7 @@ class Yuragi:
     gain_per_px: float
     noise_per_px: float
     radius: float
+    noise_steps: int
     noise_along_map: bool
     distance_cap: float
     return_when_unseen: bool
@@ -55,15 +58,18 @@ class Yuragi:
         self._selection = learned.field.within(target, self.radius * learned.field.side)
         self._distance = np.inf
         self._shape: Array | None = None
+        self._steps = 0
 
     def decide(
         self, seen: Observation, percept: Percept, target: Array, dynamics: Dynamics
     ) -> Decision:
         """Where the arm is drawn now."""
-        unit = uniform_noise(self.rng, len(seen.posture), 1.0)
+        if self._steps % self.noise_steps == 0:
+            self._unit = uniform_noise(self.rng, len(seen.posture), 1.0)
+        self._steps += 1
         gain, level = self._strengths(percept, target)
         attractors = self._learned.attractors(self._selection, seen.posture)
-        noise = level * (self._shaping(dynamics) @ unit)
+        noise = level * (self._shaping(dynamics) @ self._unit)
         distance = float("nan") if percept.hand is None else self._distance
         return drawn_by(
             attractors,
