@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 
 from imitation.analysis.claims import Claim, every_claim, rate_claim, value_claim
 from imitation.analysis.figure_style import FULL_WIDTH, Drawn, style
-from imitation.analysis.reached import MapReaches, Reaches, typical
+from imitation.analysis.reached import MapReaches, Reaches, typical, typical_of
 from imitation.analysis.visual_axes import (
     draw_trajectories,
     mark_places,
@@ -38,7 +38,7 @@ def draw_fig4(runs: Sequence[MapReaches], settings: Trajectories) -> Drawn:
         left, right = figure.subplots(1, 2)
         figure.subplots_adjust(left=0.065, right=0.985, bottom=0.13, top=0.83, wspace=0.16)
         if shown is not None:
-            _panel(left, "Learned position", shown, next(iter(shown.at_learned), None))
+            _panel(left, "Learned position", shown, typical_of(shown.at_learned))
             _panel(right, "Position not learned", shown, shown.between)
         figure.legend(handles=marks_explained(), loc="upper center", ncols=4, columnspacing=1.6)
     return figure, _claims(runs, settings)

@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 
 from imitation.analysis.fig5_claims import PAPER, Approaches, by_map, claims_of_fig5
 from imitation.analysis.figure_style import COLOURS, FAINT, FULL_WIDTH, INK, Drawn, style
-from imitation.analysis.reached import MapReaches, ReachedTrial, Reaches, typical
+from imitation.analysis.reached import MapReaches, ReachedTrial, Reaches, typical, typical_of
 
 DARK, LIGHT = "#555555", FAINT  # the paper's two lines
 DRAWN = {  # controller: what it is called in the picture, colour, line
@@ -27,8 +27,7 @@ def draw_fig5(runs: Sequence[MapReaches], settings: Approaches) -> Drawn:
         left, right, times = figure.subplots(1, 3, width_ratios=(1, 1.2, 1.1))
         figure.subplots_adjust(left=0.065, right=0.985, bottom=0.155, top=0.80, wspace=0.28)
         if shown is not None:
-            first = next(iter(shown.at_learned), None)
-            _distances(left, "Learned position", first, settings)
+            _distances(left, "Learned position", typical_of(shown.at_learned), settings)
             _distances(right, "Position not learned", shown.between, settings)
             _share_the_top(left, right)
         left.set_ylabel("distance to the target [px]")

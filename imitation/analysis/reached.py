@@ -150,6 +150,13 @@ def between_four(learned: VisuoMotorMap, radius: float, average: float) -> Situa
     return min(among, key=lambda one: abs(one.distances.mean() - average), default=None)
 
 
+def typical_of(reaches: Sequence[Reaches]) -> Reaches | None:
+    """The reaches that take the median time; None of none."""
+    times = [sum(trial.time_s for trial in one.trials) for one in reaches]
+    order = np.argsort(times, kind="stable")
+    return reaches[int(order[(len(times) - 1) // 2])] if reaches else None
+
+
 def typical(runs: Sequence[MapReaches]) -> MapReaches | None:
     """The map whose reaches to the place between four take the median time.
 

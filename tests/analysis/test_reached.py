@@ -4,7 +4,13 @@ import numpy as np
 import pytest
 from made_up_reaches import FIELD, learned_map, run, trial
 
-from imitation.analysis.reached import between_four, learned_positions, situation, typical
+from imitation.analysis.reached import (
+    between_four,
+    learned_positions,
+    situation,
+    typical,
+    typical_of,
+)
 
 
 def test_four_attractors_take_part_at_a_corner_of_four_areas():
@@ -62,3 +68,9 @@ def test_the_typical_map_takes_the_median_time():
     runs = [run(paper_s=2.0), run(paper_s=9.0), run(paper_s=4.0)]
     assert typical(runs) is runs[2]
     assert typical([]) is None
+
+
+def test_the_typical_position_takes_the_median_time():
+    one, two, three = (run(paper_s=seconds).at_learned[0] for seconds in (2.0, 9.0, 4.0))
+    assert typical_of([one, two, three]) is three
+    assert typical_of([]) is None
