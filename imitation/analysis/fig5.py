@@ -14,7 +14,7 @@ DARK, LIGHT = "#555555", FAINT  # the paper's two lines
 DRAWN = {  # controller: what it is called in the picture, colour, line
     "corrected_aim": ("corrected aim (ours)", COLOURS[2], "-"),
     PAPER: ("the paper's law", COLOURS[0], "-"),
-    "noise": ("noise alone, K = 0", COLOURS[1], "--"),
+    "noise": ("noise alone (K = 0)", COLOURS[1], "--"),
     "nearest": ("nearest posture", INK, ":"),
 }
 
@@ -32,12 +32,16 @@ def draw_fig5(runs: Sequence[MapReaches], settings: Approaches) -> Drawn:
             _share_the_top(left, right)
         left.set_ylabel("distance to the target [px]")
         _times(times, runs)
-        for axes, place in ((right, 0.055), (times, 0.655)):
+        for axes, corner in ((right, "upper left"), (times, "upper right")):
             shown_there = axes.get_legend_handles_labels()
             figure.legend(
-                *shown_there, loc="upper left", bbox_to_anchor=(place, 1.01), ncols=2,
-                columnspacing=1.0, handlelength=1.8,
-            )  # fmt: skip
+                *shown_there,
+                loc=corner,
+                bbox_to_anchor=(0.055, 0.0, 0.945, 1.01),
+                ncols=2,
+                columnspacing=1.0,
+                handlelength=1.8,
+            )
     return figure, claims_of_fig5(runs, settings)
 
 
@@ -53,7 +57,12 @@ def _distances(axes: Any, title: str, reaches: Reaches | None, settings: Approac
         linewidth=1.1,
         label="average distance to the attractors",
     )
-    axes.axhline(settings.tolerance_px, color=LIGHT, linewidth=1.4, label="reached below this")
+    axes.axhline(
+        settings.tolerance_px,
+        color=LIGHT,
+        linewidth=1.4,
+        label=f"reached below {settings.tolerance_px:g} px",
+    )
     for number, trial in enumerate(reaches.trials):
         _approach(axes, trial, COLOURS[number % len(COLOURS)])
     axes.set(xlabel="time [s]", xlim=(0, None), ylim=(0, None))
