@@ -90,7 +90,7 @@ def check_target(node: Target, path: tuple[str, ...], cfg: Config) -> None:
     fields: dict[str, Any] = {}
     for parameter in parameters.values():
         if parameter.name in given or _must_be_given(parameter):
-            fields[parameter.name] = (_kind(parameter.name, hints), ...)
+            fields[parameter.name] = (_kind(path[0], parameter.name, hints), ...)
     model = create_model(dotted, __config__=ConfigDict(extra="forbid", strict=True), **fields)
     try:
         model.model_validate(given)
@@ -135,10 +135,10 @@ def _must_be_given(parameter: Parameter) -> bool:
     return not several and not has_default and parameter.name not in SUPPLIED
 
 
-def _kind(name: str, hints: Mapping[str, Any]) -> Any:
+def _kind(section: str, name: str, hints: Mapping[str, Any]) -> Any:
     """What a parameter may hold; anything when neither its name nor its type tells."""
-    if name in RANGES:
-        return RANGES[name]
+    if kind := RANGES.get(section, {}).get(name):
+        return kind
     return hints[name] if hints.get(name) in (str, int, float, bool) else Any
 
 

@@ -28,6 +28,8 @@ TYPED = [
     (["learn-map", "robot.guided=[[0,0],[1,1]]"], ["robot.guided[0] needs 5 numbers"]),
     (["learn-map", "robot.arm.force=[1]"], ["robot.arm.force needs 5 numbers"]),
     (["learn-map", "robot.arm.mark.radius=-1"], ["robot.arm.mark.radius=-1", "greater than 0"]),
+    (["learn-map", "robot.arm.mark.link=x"], ["katana_6m180.urdf has no x", "gripper"]),
+    (["learn-map", "robot.arm.fingers=[x]"], ["katana_6m180.urdf has no x", "finger"]),
     (["learn-map", "robot.arm.table.size=2"], ["robot.arm.table.size=2", "a list"]),
     (["learn-map", "robot.arm._target_=nowhere.arm"], ["nowhere.arm"]),
     (["learn-map", "seed=0,1"], ["several values", "-m"]),

@@ -1,5 +1,6 @@
 """A PyBullet world: table, arm and what stands before it. The one module that knows the engine."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -114,8 +115,9 @@ class World:
         info = [pybullet.getJointInfo(self._arm, joint, **call) for joint in range(count)]
         by_name = {row[1].decode(): joint for joint, row in enumerate(info)}
         self._links = {row[12].decode(): joint for joint, row in enumerate(info)}
-        self._joints = [by_name[name] for name in self.joints]
-        self._fingers = [by_name[name] for name in self.fingers]
+        self._joints = [self._known(name, by_name) for name in self.joints]
+        self._fingers = [self._known(name, by_name) for name in self.fingers]
+        self._known(self.mark.link, self._links)
         self._finger_range = [(info[j][8], info[j][9]) for j in self._fingers]
         for joint, angle in zip(self._joints, posture, strict=True):
             pybullet.resetJointState(self._arm, joint, angle, **call)
@@ -209,6 +211,12 @@ class World:
         """End the engine; harmless when repeated."""
         if pybullet.isConnected(self._client):
             pybullet.disconnect(self._client)
+
+    def _known(self, name: str, numbers: Mapping[str, int]) -> int:
+        """The number of a joint or link of the URDF, by its name."""
+        if name not in numbers:
+            raise ValueError(f"{self.urdf} has no {name}; it has {', '.join(numbers)}")
+        return numbers[name]
 
     def _picture(self, client: int, view: Array, projection: Array, size: tuple[int, int]) -> Image:
         width, height = size
