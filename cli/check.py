@@ -12,7 +12,8 @@ from pydantic import BaseModel, ConfigDict, ValidationError, create_model
 from cli.build import Config
 from cli.errors import UserError, nearest
 from cli.keys import comments
-from cli.schema import COMMANDS, RANGES, Target
+from cli.ranges import RANGES
+from cli.schema import COMMANDS, Target
 
 SUPPLIED = {"arm", "space", "rng", "acceleration", "period"}  # given by cli/build.py when asked for
 

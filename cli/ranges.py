@@ -1,0 +1,79 @@
+"""What the parameters of a `_target_` may hold, by section and parameter."""
+
+from typing import Annotated, Any
+
+from pydantic import Field as Within
+
+from cli.schema import (
+    ByteRange,
+    Colour,
+    Count,
+    HueRange,
+    Names,
+    NotNegative,
+    Pair,
+    Positive,
+    Section,
+    Triple,
+    Whole,
+)
+
+
+class Mark(Section):
+    """`robot.arm.mark`."""
+
+    link: str
+    offset: Triple
+    radius: Annotated[float, Within(gt=0, le=1)]
+    colour: Colour
+
+
+class Table(Section):
+    """`robot.arm.table`."""
+
+    size: Annotated[list[Positive], Within(min_length=3, max_length=3)]
+    centre: Triple
+    colour: Colour
+    friction: NotNegative
+
+
+RANGES: dict[str, dict[str, Any]] = {
+    "camera": {
+        "eye": Triple,
+        "gaze": Pair,
+        "noise_px": NotNegative,
+        "delay_frames": Whole,
+    },
+    "vision": {
+        "hue": HueRange,
+        "saturation": ByteRange,
+        "value": ByteRange,
+        "min_pixels": Count,
+    },
+    "robot": {
+        "base": Triple,
+        "mark": Mark,
+        "table": Table,
+        "joints": Names,
+        "fingers": list[str],
+        "speed": list[Positive] | None,
+        "acceleration": list[Positive],
+        "force": list[Positive],
+        "finger_force": NotNegative,
+        "rate": Annotated[int, Within(ge=1, le=10_000)],
+        "iterations": Annotated[int, Within(ge=1, le=10_000)],
+        "stiffness": Annotated[float, Within(ge=0, le=1_000)],
+    },
+    "controller": {
+        "bandwidth": Positive,
+        "ridge": NotNegative,
+        "settling": Positive,
+        "noise": Positive,
+        "noise_steps": Count,
+        "largest": Positive,
+        "gain_per_px": NotNegative,
+        "noise_per_px": NotNegative,
+        "radius": Positive,
+        "distance_cap": Positive,
+    },
+}
