@@ -43,7 +43,7 @@ class Learned:
 def learn_one(task: tuple[int, Sequence[str]]) -> Learned:
     """Learn the map of one seed and hold its places against the truth."""
     seed, words = task
-    bench = Bench(composed("learn-map", [f"seed={seed}", *words]))
+    bench = Bench({**composed("learn-map", *words), "seed": seed})
     learner, samples = learning(bench)
     for _ in samples:
         pass
@@ -61,7 +61,7 @@ def learn_one(task: tuple[int, Sequence[str]]) -> Learned:
 def reach_one(task: tuple[int, LearnedMap, Sequence[str], int, bool]) -> dict[str, Any]:
     """Reach `count` targets with one seed's map: random ones, or the learned places."""
     seed, stored, words, count, learned_places = task
-    bench = Bench(composed("reach", [f"seed={seed}", "map=none", f"trials={count}", *words]))
+    bench = Bench({**composed("reach", "map=given", f"trials={count}", *words), "seed": seed})
     if learned_places:
         rng = generator(seed, "starts")
         trials = from_learned_postures(stored.map.memories()[1], stored.map, rng)
