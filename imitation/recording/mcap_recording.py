@@ -58,7 +58,6 @@ class Recorder:
         patience: float | None = None,
     ) -> None:
         waiting, chunk_ns = bounds(max_loss, period_ns)
-        waiting, chunk_ns = bounds(max_loss, period_ns)
         self._name, self._patience = path.name, patience
         self._closed = self._failed = False
         self._steps = StepMessages(body)

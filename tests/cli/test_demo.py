@@ -1,7 +1,5 @@
 """The demo types commands that exist, with keys that compose."""
 
-from pathlib import Path
-
 import pytest
 from hydra import compose, initialize_config_module
 
@@ -11,7 +9,7 @@ from cli.figures import FIGURES
 from cli.words import understand
 
 
-@pytest.mark.parametrize("typed", list(commands(Path("here"))), ids=" ".join)
+@pytest.mark.parametrize("typed", list(commands("demo-now")), ids=" ".join)
 def test_a_command_of_the_demo_composes(typed):
     command, *words = typed
     if command == "figure":
