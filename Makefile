@@ -9,7 +9,7 @@ RUN := .venv/bin
 READY := .venv/.ready
 FIGURES := fig1 fig2 fig3 fig4 fig5
 
-.PHONY: help setup demo test test-full check bench figures $(FIGURES) view clean
+.PHONY: help setup demo test test-full check bench results figures $(FIGURES) view clean
 
 help: ## list the targets
 	@grep -hE '^[a-z0-9 -]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:[^#]*## /|/' | awk -F'|' '{printf "  make %-26s %s\n", $$1, $$2}'
@@ -42,6 +42,9 @@ check: $(READY) ## ruff, mypy, who imports whom
 
 bench: $(READY) ## ratios of speed and memory against their bounds, into data/bench.json
 	$(RUN)/python -m tests.benchmarks
+
+results: $(READY) ## the numbers of docs/results.md over 20 untuned seeds; about half an hour
+	$(RUN)/python -m cli.results
 
 fig1 fig2 fig4 fig5: $(READY) ## a figure of the paper with its claims, all seeds
 	$(RUN)/imitate figure $@

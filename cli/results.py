@@ -28,6 +28,7 @@ from imitation.recording.map_file import LearnedMap
 from imitation.stages.trials import from_learned_postures
 
 RESAMPLES = 2000  # of the bootstrap
+RESULTS = Path("data/results.json")
 
 
 @dataclass(frozen=True)
@@ -167,6 +168,7 @@ def measure(cfg: Config) -> dict[str, list[dict[str, Any]]]:
             runs = each(learn_one, [(seed, words) for seed in seeds], f"learn: {name}")
             maps.setdefault(runs[0].stored.map.field.name, runs)
             found["learning"].append(told_of_learning(name, runs))
+            write(cfg, found)
         for field in cfg["fields"]:
             for name, words in cfg["reaching"].items():
                 for places in (False, True) if name in cfg["learned_places"] else (False,):
@@ -178,7 +180,14 @@ def measure(cfg: Config) -> dict[str, list[dict[str, Any]]]:
                     results = each(reach_one, tasks, f"reach: {called} on {field}")
                     late = 0.2 if "experiment=late_camera" in words else 0.0
                     found["reaching"].append(told_of_reaching(called, field, results, late))
+                    write(cfg, found)
     return found
+
+
+def write(cfg: Config, found: dict[str, list[dict[str, Any]]]) -> None:
+    """Write what was found so far to data/results.json."""
+    RESULTS.parent.mkdir(exist_ok=True)
+    RESULTS.write_text(json.dumps(plain({"settings": cfg, **found}), indent=2) + "\n")
 
 
 def show(rows: Sequence[dict[str, Any]], title: str) -> None:
@@ -204,9 +213,6 @@ def main(words: Sequence[str]) -> None:
     with initialize_config_module("conf", version_base="1.3"):
         cfg: Any = OmegaConf.to_container(compose("results", list(words)), resolve=True)
     found = measure(cfg)
-    path = Path("data/results.json")
-    path.parent.mkdir(exist_ok=True)
-    path.write_text(json.dumps(plain({"settings": cfg, **found}), indent=2) + "\n")
     for title, rows in found.items():
         show(rows, title)
 
