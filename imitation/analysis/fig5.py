@@ -1,9 +1,10 @@
 """Fig. 5: distance to the target against time, and how other controllers do beside the paper's."""
 
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from imitation.analysis.fig5_claims import PAPER, Approaches, by_map, claims_of_fig5
@@ -32,10 +33,15 @@ def draw_fig5(runs: Sequence[MapReaches], settings: Approaches) -> Drawn:
             _share_the_top(left, right)
         left.set_ylabel("distance to the target [px]")
         _times(times, runs)
-        for axes, corner in ((right, "upper left"), (times, "upper right")):
-            shown_there = axes.get_legend_handles_labels()
+        corners: tuple[tuple[Axes, Literal["upper left", "upper right"]], ...] = (
+            (right, "upper left"),
+            (times, "upper right"),
+        )
+        for axes, corner in corners:
+            handles, labels = axes.get_legend_handles_labels()
             figure.legend(
-                *shown_there,
+                handles,
+                labels,
                 loc=corner,
                 bbox_to_anchor=(0.055, 0.0, 0.945, 1.01),
                 ncols=2,
