@@ -1,6 +1,7 @@
 """The folder of a run: where it lies, and that nothing is written over."""
 
 import os
+from contextlib import suppress
 from datetime import datetime
 from pathlib import Path
 
@@ -24,6 +25,14 @@ def make_run_folder(out: str | None, command: str) -> Path:
             f"type out={next_free(Path(out))}"
         )
     return writable(folder)
+
+
+def unmake_run_folder(folder: Path) -> None:
+    """Take away what a run that never began has left; what else the folder holds stays."""
+    for name in OURS:
+        (folder / name).unlink(missing_ok=True)
+    with suppress(OSError):  # it holds something else
+        folder.rmdir()
 
 
 def writable(folder: Path) -> Path:

@@ -12,7 +12,7 @@ from omegaconf import DictConfig
 from cli.build import Config
 from cli.check import checked
 from cli.errors import BAD_INPUT, DEVICE, DONE, INTERRUPTED, NOT_TRUE, is_refusal, say
-from cli.folder import make_run_folder
+from cli.folder import make_run_folder, unmake_run_folder
 from cli.interruption import STOP, sigterm_like_ctrl_c
 from cli.report import show
 from cli.run import Outcome, Run
@@ -69,10 +69,13 @@ def _run(command: str, cfg: Config, work: Work) -> int:
         run.log.info("interrupted")
         _say(f"what was recorded until then is in {run.folder}")
         raise
-    except Exception:
+    except Exception as error:
         if not run.status:
             run.write_metrics("failed", {})
         run.log.exception("failed")
+        if is_refusal(error) and not run.steps:
+            run.close()
+            unmake_run_folder(run.folder)  # nothing ran: the same out= may be typed again
         raise
     finally:
         run.close()

@@ -118,3 +118,15 @@ def test_a_recording_that_cannot_be_written_is_exit_code_3(tmp_path):
     assert "run.mcap cannot be written" in told.stderr
     metrics = json.loads((tmp_path / "run" / "metrics.json").read_text())
     assert metrics["status"] == "failed"
+
+
+def test_a_refused_run_leaves_no_folder_behind(imitate):
+    assert imitate("reach", "robot=ideal", "map=nowhere", "out=here").exit_code == 2
+    assert not (imitate.folder / "here").exists()
+
+
+def test_a_refused_run_takes_nothing_away_that_is_not_its_own(imitate):
+    (imitate.folder / "here").mkdir()
+    (imitate.folder / "here" / "notes.txt").write_text("mine")
+    assert imitate("reach", "robot=ideal", "map=nowhere", "out=here").exit_code == 2
+    assert [path.name for path in (imitate.folder / "here").iterdir()] == ["notes.txt"]
