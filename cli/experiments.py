@@ -4,7 +4,6 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cache
-from inspect import signature
 
 import numpy as np
 from hydra import compose, initialize_config_module
@@ -12,12 +11,11 @@ from hydra.core.global_hydra import GlobalHydra
 
 from cli.build import Bench, Config, generator
 from cli.check import checked
+from cli.stages import learning, reaching, rules
 from imitation.analysis.reached import ReachedTrial, Reaches, Situation
 from imitation.arrays import Array
 from imitation.sample import Sample
-from imitation.stages.babbling import Babbling, Curiosity
-from imitation.stages.learn_map import Learner, LearningRun, learn_map
-from imitation.stages.reach import Reaching, Trial, reach
+from imitation.stages.reach import Trial
 from imitation.visuo_motor_map import VisuoMotorMap
 
 
@@ -54,36 +52,10 @@ def composed(command: str, *words: str) -> Config:
 def learned_map(seed: int, experiment: Experiment) -> VisuoMotorMap:
     """The map of a learn-map run."""
     with experiment.learning_bench(seed) as bench:
-        learned = bench.empty_map()
-        for _ in learning(seed, bench, learned):
+        learner, samples = learning(bench)
+        for _ in samples:
             pass
-    return learned
-
-
-def learning(seed: int, bench: Bench, learned: VisuoMotorMap) -> Iterator[Sample]:
-    """The steps of a learn-map run, which fill `learned`."""
-    cfg = bench.cfg
-    curiosity, rng = Curiosity(**cfg["curiosity"]), generator(seed, "babbling")
-    babbling = Babbling(bench.guided, curiosity, bench.robot.body.speed, rng)
-    settings = LearningRun(**cfg["learning"])
-    perception = bench.perception(bench.field)
-    learner = Learner(bench.robot, perception, bench.dynamics, learned, settings)
-    yield from learn_map(learner, babbling)
-
-
-def reaching(bench: Bench, learned: VisuoMotorMap, trials: Sequence[Trial]) -> Iterator[Sample]:
-    """The steps of a reach run."""
-    perception = bench.perception(learned.field)
-    return reach(
-        bench.robot, perception, learned, bench.dynamics, bench.controller, trials, rules(bench)
-    )
-
-
-def rules(bench: Bench) -> Reaching:
-    """When the trials of a reach run end."""
-    settings = bench.cfg["reach"]
-    asked = [name for name in signature(Reaching).parameters if name in settings]
-    return Reaching(**{name: settings[name] for name in asked})
+    return learner.learned
 
 
 def trials_for(seed: int, learned: VisuoMotorMap, target: Array, count: int) -> list[Trial]:

@@ -7,7 +7,8 @@ from itertools import islice
 
 from cli.build import Bench
 from cli.every_seed import on_every_seed
-from cli.experiments import Experiment, learning, radius_of, reaching, trials_for
+from cli.experiments import Experiment, radius_of, trials_for
+from cli.stages import learning, reaching
 from imitation import dynamics
 from imitation.analysis.fig2 import Box, Trace, draw_fig2
 from imitation.analysis.figure_style import Drawn
@@ -73,11 +74,11 @@ def boxes_of(bench: Bench, perception: Perception) -> list[Box]:
 def traces(seed: int, experiment: Experiment) -> list[Trace]:
     """One step of reaching with a learned map, and one of learning it."""
     with experiment.learning_bench(seed) as bench:
-        learned = bench.empty_map()
-        samples = learning(seed, bench, learned)
+        learner, samples = learning(bench)
         first = _watched(bench, bench.perception(bench.field), samples)
         for _ in samples:
             pass
+    learned = learner.learned
     with experiment.reaching_bench(seed) as bench:
         four = between_four(learned, radius_of(bench, learned), 0.0)
         target = learned.memories()[1].mean(axis=0) if four is None else four.target

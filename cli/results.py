@@ -18,9 +18,10 @@ from rich.table import Table
 
 from cli.build import Bench, Config, generator
 from cli.experiments import composed
-from cli.jobs.learn_map import learned_by, learning
+from cli.jobs.learn_map import learned_by
 from cli.jobs.reach import reaching, trials_of
 from cli.run import plain
+from cli.stages import learning
 from imitation.analysis.metrics import learn_map_metrics
 from imitation.analysis.statistics import bootstrap, wilson
 from imitation.arrays import Array

@@ -1,23 +1,21 @@
 """imitate learn-map: babble, watch the own hand, save the map."""
 
-from collections.abc import Iterator
 from typing import Any
 
 import hydra
 import numpy as np
 from omegaconf import DictConfig
 
-from cli.build import Bench, generator
+from cli.build import Bench
 from cli.guide import guide, typed_answer, write_guided
 from cli.job import job
 from cli.run import Outcome, Run
+from cli.stages import learning
 from imitation.analysis.metrics import learn_map_metrics
 from imitation.arrays import Array
 from imitation.hull import clip_outline, outline
 from imitation.recording.map_file import LearnedMap, fingerprint, save_map
-from imitation.sample import Sample
-from imitation.stages.babbling import Babbling, Curiosity
-from imitation.stages.learn_map import Learner, LearningRun, learn_map
+from imitation.stages.learn_map import Learner
 
 
 @hydra.main(version_base="1.3", config_path="pkg://conf", config_name="learn_map")
@@ -49,16 +47,6 @@ def guide_by_hand(run: Run) -> None:
     postures = guide(robot.arm, run.cfg["robot"]["name"], ask=typed_answer)
     run.bench.guided, robot.home = postures, postures.mean(axis=0)
     write_guided(run.folder / "guided.yaml", postures)
-
-
-def learning(bench: Bench) -> tuple[Learner, Iterator[Sample]]:
-    """Whoever learns, and the steps of its learning."""
-    cfg, robot = bench.cfg, bench.robot
-    rng = generator(cfg["seed"], "babbling")
-    babbling = Babbling(bench.guided, Curiosity(**cfg["curiosity"]), robot.body.speed, rng)
-    perception, settings = bench.perception(bench.field), LearningRun(**cfg["learning"])
-    learner = Learner(robot, perception, bench.dynamics, bench.empty_map(), settings)
-    return learner, learn_map(learner, babbling)
 
 
 def learned_by(bench: Bench, learner: Learner) -> LearnedMap:

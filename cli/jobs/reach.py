@@ -8,6 +8,7 @@ import hydra
 import numpy as np
 from omegaconf import DictConfig
 
+from cli import stages
 from cli.build import Bench, generator
 from cli.errors import UserError
 from cli.job import job
@@ -17,10 +18,9 @@ from imitation.arrays import Array
 from imitation.hull import depth_inside
 from imitation.recording.map_file import LearnedMap, differences, fingerprint, load_map
 from imitation.sample import Sample
-from imitation.stages.reach import Reaching, Trial, reach
+from imitation.stages.reach import Trial
 from imitation.stages.trials import from_learned_postures, random_targets
 
-OF_THE_JOB = ("required", "inset", "border", "force")  # keys of reach: that the stage needs not
 CONTROLS = ("noise", "nearest")  # nothing is asked of them
 
 
@@ -43,19 +43,16 @@ def reaching(
     bench: Bench, stored: LearnedMap, trials: Sequence[Trial]
 ) -> tuple[Iterator[Sample], ReachMetrics]:
     """The steps of the trials, and what will measure them."""
-    cfg, learned = bench.cfg["reach"], stored.map
-    settings = Reaching(**{key: cfg[key] for key in cfg if key not in OF_THE_JOB})
-    robot, perception = bench.robot, bench.perception(learned.field)
+    cfg = bench.cfg["reach"]
     metrics = ReachMetrics(
-        learned,
+        stored.map,
         stored.outline,
-        robot.body,
+        bench.robot.body,
         cfg["border"],
         cfg["hold_frames"],
         holding=bench.cfg["controller"]["name"] not in (*CONTROLS, "yuragi"),
     )
-    samples = reach(robot, perception, learned, bench.dynamics, bench.controller, trials, settings)
-    return samples, metrics
+    return stages.reaching(bench, stored.map, trials), metrics
 
 
 def the_map(run: Run) -> LearnedMap:

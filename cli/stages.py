@@ -1,0 +1,36 @@
+"""Stages made from the parts of a bench: their steps, to be recorded, watched or only counted."""
+
+from collections.abc import Iterator, Sequence
+from inspect import signature
+
+from cli.build import Bench, generator
+from imitation.sample import Sample
+from imitation.stages.babbling import Babbling, Curiosity
+from imitation.stages.learn_map import Learner, LearningRun, learn_map
+from imitation.stages.reach import Reaching, Trial, reach
+from imitation.visuo_motor_map import VisuoMotorMap
+
+
+def learning(bench: Bench) -> tuple[Learner, Iterator[Sample]]:
+    """Whoever learns, and the steps of its learning."""
+    cfg, robot = bench.cfg, bench.robot
+    rng = generator(cfg["seed"], "babbling")
+    babbling = Babbling(bench.guided, Curiosity(**cfg["curiosity"]), robot.body.speed, rng)
+    perception, settings = bench.perception(bench.field), LearningRun(**cfg["learning"])
+    learner = Learner(robot, perception, bench.dynamics, bench.empty_map(), settings)
+    return learner, learn_map(learner, babbling)
+
+
+def reaching(bench: Bench, learned: VisuoMotorMap, trials: Sequence[Trial]) -> Iterator[Sample]:
+    """The steps of the trials of a reach run."""
+    perception = bench.perception(learned.field)
+    return reach(
+        bench.robot, perception, learned, bench.dynamics, bench.controller, trials, rules(bench)
+    )
+
+
+def rules(bench: Bench) -> Reaching:
+    """When the trials of a reach run succeed and end."""
+    settings = bench.cfg["reach"]
+    asked = [name for name in signature(Reaching).parameters if name in settings]
+    return Reaching(**{name: settings[name] for name in asked})
