@@ -8,6 +8,8 @@ import numpy as np
 from imitation.arrays import Array
 from imitation.dynamics import fastest_stoppable
 
+ROUNDING = 1e-9  # what differs by less is the same [rad, rad/s]
+
 
 class Surroundings(Protocol):
     """Knows how near the arm would be to what it must not touch."""
@@ -103,7 +105,7 @@ class Guard:
     def _too_near(self, velocity: Array, posture: Array, period: float) -> bool:
         if self.surroundings is None:
             return False
-        along = self._least(self._together_to_rest(velocity, posture, period))
+        along = self._least_together(velocity, posture, period)
         if along >= self.least_clearance:
             return False
         # From too near, the way out is open.
@@ -118,9 +120,17 @@ class Guard:
             return each
         step = self.acceleration * period
         together = before * max(0.0, 1.0 - 1.0 / max(float(np.max(np.abs(before) / step)), 1.0))
-        along = self._least(self._together_to_rest(together, posture, period))
+        along = self._least_together(together, posture, period)
         apart = self._least(self._each_to_rest(each, posture, period))
         return together if along >= apart else each
+
+    def _least_together(self, velocity: Array, posture: Array, period: float) -> float:
+        way = self._together_to_rest(velocity, posture, period)
+        # A joint that waits for the slowest may be carried beyond its own limit.
+        lowest = np.minimum(self.lower + self.margin, posture) - ROUNDING
+        highest = np.maximum(self.upper - self.margin, posture) + ROUNDING
+        within = np.all((lowest <= way[-1]) & (way[-1] <= highest))
+        return self._least(way) if within else -np.inf
 
     def _least(self, way: Array) -> float:
         assert self.surroundings is not None
@@ -141,4 +151,4 @@ class Guard:
 
 
 def _differ(one: Array, other: Array) -> bool:
-    return bool(np.abs(one - other).max() > 1e-9)
+    return bool(np.abs(one - other).max() > ROUNDING)

@@ -181,11 +181,33 @@ def test_from_too_near_the_way_out_is_open():
     assert reasons == ()
 
 
+def within_joint_limits(guard: Guard, done: Ride) -> bool:
+    lowest, highest = guard.lower + guard.margin - 1e-6, guard.upper - guard.margin + 1e-6
+    return bool(((done.postures >= lowest) & (done.postures <= highest)).all())
+
+
 @settings(max_examples=200)
 @given(before_the_wall, wishes)
 def test_whatever_is_asked_the_arm_keeps_clear_of_a_wall(start, wanted):
     done = ride(WALLED, start, wanted)
     assert Wall().clearance(done.postures).min() >= WALLED.least_clearance - 1e-9
+
+
+def test_braking_in_proportion_before_a_wall_does_not_carry_a_joint_beyond_its_limit():
+    slow, quick = 2, 4  # the third joint needs six times as long to stop as the last one
+
+    @dataclass(frozen=True)
+    class Ceiling:
+        def clearance(self, postures: Array) -> Array:
+            return 1.0 - postures[:, slow]
+
+    guard = replace(GUARD, surroundings=Ceiling(), least_clearance=0.1)
+    start, rise = np.zeros(JOINTS), np.zeros(JOINTS)
+    start[slow], start[quick] = 0.2, 2.5
+    rise[slow], rise[quick] = 1.2, 1.2
+    done = ride(guard, start, [(rise, 40)])
+    assert guard.surroundings.clearance(done.postures).min() >= 0.1 - 1e-9
+    assert within_joint_limits(guard, done)
 
 
 def test_joints_that_brake_at_different_rates_do_not_dip_into_the_wall_on_their_way_to_rest():
@@ -233,3 +255,4 @@ def test_whatever_is_asked_the_katana_keeps_clear_of_table_and_base(katana, want
     assert katana.clearance(home[None]) > 0.02
     done = ride(guard, home, wanted)
     assert katana.clearance(done.postures).min() >= 0.02 - 1e-6
+    assert within_joint_limits(guard, done)
