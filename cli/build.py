@@ -40,6 +40,12 @@ def make(node: Config, **more: Any) -> Any:
     return get_method(node["_target_"])(**_plain(node, "_target_"), **more)
 
 
+def make_offered(node: Config, offered: Config) -> Any:
+    """What `make` builds, given those of the `offered` values that it asks for."""
+    asked = signature(get_method(node["_target_"])).parameters
+    return make(node, **{name: value for name, value in offered.items() if name in asked})
+
+
 def made(node: Any) -> Any:
     """`node` with everything built that a `_target_` in it names, innermost first."""
     if isinstance(node, list):
@@ -73,7 +79,7 @@ class Bench:
     def robot(self) -> Robot:
         """The arm, its camera and the guard."""
         node = self.cfg["robot"]
-        arm = make(node["arm"])
+        arm = make_offered(node["arm"], {"period": self.period_ns / SECOND})
         camera = make(
             _plain(self.cfg["camera"], "size", "focal_px"),
             arm=arm,
@@ -123,9 +129,7 @@ class Bench:
             "acceleration": body.acceleration,
             "period": self.robot.period,
         }
-        asked = signature(get_method(node["_target_"])).parameters
-        given = {name: value for name, value in offered.items() if name in asked}
-        controller: Controller = make(_plain(node, "name"), **given)
+        controller: Controller = make_offered(_plain(node, "name"), offered)
         return controller
 
     def empty_map(self) -> VisuoMotorMap:

@@ -16,6 +16,8 @@ from imitation.robots.simulated_camera import Scene, SimulatedCamera
 
 Numbers = Sequence[float]
 
+ROUNDING = 1e-6  # what a period counted in whole nanoseconds may be off [physics steps]
+
 
 def body_of(
     name: str,
@@ -57,8 +59,10 @@ def bullet_arm(
     rate: int,
     iterations: int,
     stiffness: float,
+    period: float,
 ) -> BulletArm:
     """An arm in a PyBullet world of its own; see `World` and `BulletArm` for the values."""
+    refuse_part_of_a_substep(period, rate)
     world = World(
         urdf=urdf,
         joints=tuple(joints),
@@ -72,6 +76,17 @@ def bullet_arm(
         finger_force=finger_force,
     )
     return BulletArm(world, body_of(name, urdf, joints, base, speed, acceleration), stiffness)
+
+
+def refuse_part_of_a_substep(period: float, rate: int) -> None:
+    """Refuse a control `period` [s] that is no whole number of physics steps at `rate` [Hz]."""
+    substeps = period * rate
+    whole = max(round(substeps), 1)
+    if abs(substeps - whole) > ROUNDING:
+        raise ValueError(
+            f"period={period:g} s is {substeps:.9g} physics steps at robot.arm.rate={rate} Hz, "
+            f"not a whole number of them; type period={whole / rate:.9g}"
+        )
 
 
 def ideal_arm(
