@@ -24,7 +24,7 @@ class LearningRun:
     limit: float  # babbling and revisiting together end here [s]
     patience: float  # babbling ends when no area was new for this long [s]
     arrival: float  # a posture is reached when every joint is this near [rad]
-    blocked: float  # a goal is given up when the arm stands still before it for this long [s]
+    blocked: float  # a goal is given up when the arm gets no farther for this long [s]
     pairing: float  # frames older than this are not paired with a posture [s]
 
 
@@ -41,14 +41,20 @@ class Learner:
     def __post_init__(self) -> None:
         self.history = PostureHistory(self.run.pairing)
         self.seen = self.robot.reset()
+        self.begun = self.seen.time  # [s]
         self.shown: dict[Area, Array] = {}  # where each revisited posture showed the hand [px]
         self.places: list[Array] = []  # everywhere the hand was seen [px]
+
+    @property
+    def late(self) -> bool:
+        """Whether the limit has come."""
+        return self.seen.time - self.begun >= self.run.limit
 
     def move(self, goal: Goal, babbling: Babbling | None) -> Iterator[Sample]:
         """Go to `goal` and yield the steps; learn on the way when `babbling`."""
         arrived: int | None = None
-        moved = self.seen.time
-        while self.seen.time - moved < self.run.blocked:
+        moved, there = self.seen.time, self.seen.posture
+        while self.seen.time - moved < self.run.blocked and not self.late:
             seen = self.seen
             self.history.note(seen.time_ns, seen.posture)
             percept = self.perception.perceive(seen)
@@ -70,8 +76,9 @@ class Learner:
             command = Command(decision.velocity)
             self.seen, applied = self.robot.step(command)
             yield Sample(seen, percept, decision, command, applied, tuple(events))
-            if applied.limited.any():
-                moved = self.seen.time
+            # What the arm was told does not tell whether something stands in its way.
+            if arrived is not None or np.any(np.abs(self.seen.posture - there) > self.run.arrival):
+                moved, there = self.seen.time, self.seen.posture
             if arrived is not None and not waiting:
                 return
 
@@ -107,17 +114,16 @@ def learn_map(learner: Learner, babbling: Babbling) -> Iterator[Sample]:
 
     Ends early when no area was new for `patience` seconds, or at the limit.
     """
-    run, learned, start = learner.run, learner.learned, learner.seen.time
-    news, count = start, 0
-    while not babbling.content(learned):
-        now = learner.seen.time
-        if now - news > run.patience or now - start > run.limit:
+    learned, patience = learner.learned, learner.run.patience
+    news, count = learner.begun, 0
+    while not babbling.content(learned) and not learner.late:
+        if learner.seen.time - news > patience:
             break
         yield from learner.move(babbling.next_goal(learned, learner.seen.posture), babbling)
         if learned.learned.sum() > count:
             news, count = learner.seen.time, int(learned.learned.sum())
     remaining = {(int(row), int(column)) for row, column in np.argwhere(learned.learned)}
-    while remaining and learner.seen.time - start <= run.limit:
+    while remaining and not learner.late:
         goal = babbling.nearest_learned(learned, remaining, learner.seen.posture)
         remaining.discard(goal.area or (-1, -1))
         yield from learner.move(goal, None)

@@ -56,14 +56,14 @@ def reach(
             decision = controller.decide(seen, percept, trial.target, dynamics)
             near = decision.distance < reaching.tolerance
             holding = near and (held > 0 or decision.distance < reaching.settled)
+            if near and not reached:
+                events.append(_told("reached", number, decision.distance))
             if percept.time_ns != frame_ns or not near:
                 held = held + 1 if holding else 0
                 if held == 1:
                     events.append(_told("settled", number, decision.distance))
                 if held == reaching.hold_frames:
                     events.append(_told("held", number, decision.distance))
-            if near and not reached:
-                events.append(_told("reached", number, decision.distance))
             frame_ns, reached = percept.time_ns, reached or near
             stopped = near or (stopped and reaching.after == "stop")
             if stopped and not controller.keeps_correcting:
