@@ -40,10 +40,13 @@ class Learner:
 
     def __post_init__(self) -> None:
         self.history = PostureHistory(self.run.pairing)
-        self.seen = self.robot.reset()
-        self.begun = self.seen.time  # [s]
         self.shown: dict[Area, Array] = {}  # where each revisited posture showed the hand [px]
         self.places: list[Array] = []  # everywhere the hand was seen [px]
+
+    def begin(self) -> None:
+        """Be at the home posture: from here on time counts."""
+        self.seen = self.robot.reset()
+        self.begun = self.seen.time  # [s]
 
     @property
     def late(self) -> bool:
@@ -115,6 +118,7 @@ def learn_map(learner: Learner, babbling: Babbling) -> Iterator[Sample]:
     Ends early when no area was new for `patience` seconds, or at the limit.
     """
     learned, patience = learner.learned, learner.run.patience
+    learner.begin()
     news, count = learner.begun, 0
     while not babbling.content(learned) and not learner.late:
         if learner.seen.time - news > patience:
