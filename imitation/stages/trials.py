@@ -34,6 +34,11 @@ def from_learned_postures(
 ) -> list[Trial]:
     """A trial for each target, from a learned posture that was not seen nearest to it."""
     postures, places = learned.memories()
+    if len(postures) < 2:
+        raise ValueError(
+            f"the map holds {len(postures)} learned postures, reaching needs 2 or more; "
+            "learn a fuller one with: imitate learn-map"
+        )
     trials = []
     for target in targets:
         nearest = int(np.argmin(np.linalg.norm(places - target, axis=1)))

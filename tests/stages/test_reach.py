@@ -63,12 +63,12 @@ def test_the_corrected_aim_holds_a_target_in_the_engine(ideal_lesson):
 
 
 def test_every_trial_tells_its_episode_then_reached_then_settled_then_held(ideal_lesson, learned):
-    samples = reached(learned, random_trials(ideal_lesson, 6), "camera.noise_px=0")
+    samples = reached(learned, random_trials(ideal_lesson, 6))
     for number, steps in enumerate(by_trial(samples)):
         kinds = told(steps)
-        assert kinds == ["episode", "reached", "settled", "held"]
-        facts = [event.facts["trial"] for sample in steps for event in sample.events]
-        assert facts == [number] * 4
+        assert list(dict.fromkeys(kinds)) == ["episode", "reached", "settled", "held"]
+        assert kinds.count("settled") == len(kinds) - 3  # a hold may have to begin anew
+        assert {event.facts["trial"] for sample in steps for event in sample.events} == {number}
 
 
 def test_a_trial_begins_at_rest_in_its_start_posture(ideal_lesson, learned):
@@ -117,11 +117,13 @@ def test_a_trial_that_does_not_hold_ends_at_the_limit(learned):
         assert steps[-1].seen.time - steps[0].seen.time == pytest.approx(2.0)
 
 
-def test_nearest_comes_to_rest_at_the_nearest_learned_posture(learned):
+def test_nearest_comes_to_rest_at_the_nearest_learned_posture_without_swinging(learned):
     target, start = learned.places[0, 2, 0] + (8.0, 6.0), learned.postures[3, 4, 0]
-    samples = reached(learned, [Trial(target, start)], "controller=nearest", "reach.limit=5")
-    assert samples[-1].seen.posture == pytest.approx(learned.postures[0, 2, 0], abs=1e-3)
+    samples = reached(learned, [Trial(target, start)], "controller=nearest", "reach.limit=3")
+    goal, way = learned.postures[0, 2, 0], learned.postures[0, 2, 0] - start
+    assert samples[-1].seen.posture == pytest.approx(goal, abs=1e-3)
     assert samples[-1].decision.distance == pytest.approx(10.0, abs=3.0)
+    assert max((sample.seen.posture - goal) @ way for sample in samples) < 1e-3
 
 
 def test_noise_pulls_never_and_moves_all_the_same(ideal_lesson, learned):
@@ -142,7 +144,8 @@ def test_yuragi_stops_for_good_where_it_arrives(ideal_lesson, learned):
         stopped = after_reaching(steps)
         assert all(not sample.command.velocity.any() for sample in stopped)
         assert len(stopped) == 10  # as many frames as make a hold
-        assert not stopped[-1].applied.sent.any()
+        speeds = [np.abs(sample.applied.sent).max() for sample in stopped]
+        assert speeds == sorted(speeds, reverse=True)
 
 
 def test_yuragi_stops_though_noise_in_the_camera_shows_the_hand_elsewhere(ideal_lesson, learned):
@@ -210,3 +213,10 @@ def test_a_learned_region_without_extent_gives_no_targets():
     line = np.array([[50.0, 50.0], [60.0, 60.0]])
     with pytest.raises(ValueError, match="too small"):
         random_targets(line, (160, 120), 6.0, 1, np.random.default_rng(0))
+
+
+def test_a_map_of_a_single_posture_gives_no_trials(ideal_lesson):
+    poor = ideal_lesson.bench.empty_map()
+    poor.postures[1, 2, 0], poor.places[1, 2, 0] = ideal_lesson.bench.guided[0], (100.0, 60.0)
+    with pytest.raises(ValueError, match="holds 1 learned"):
+        from_learned_postures([np.array([90.0, 50.0])], poor, np.random.default_rng(0))
