@@ -5,8 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from imitation.arrays import Array
-from imitation.deciding import drawn_by
-from imitation.dynamics import Dynamics, homeostatic
+from imitation.deciding import braking, drawn_by
+from imitation.dynamics import Dynamics, able_to_stop, homeostatic
 from imitation.perception import Percept
 from imitation.robot import Observation
 from imitation.sample import Decision
@@ -15,7 +15,16 @@ from imitation.visuo_motor_map import VisuoMotorMap
 
 @dataclass
 class Nearest:
-    """The homeostatic controller on the single area learned nearest to the target."""
+    """The homeostatic controller on the single area learned nearest to the target.
+
+    Args:
+        acceleration: What each joint may brake with, (n_joints,) [rad/s^2]: without braking in
+            time the arm would swing about the posture for seconds.
+        period: Control period [s].
+    """
+
+    acceleration: Array
+    period: float
 
     keeps_correcting = True
 
@@ -34,7 +43,7 @@ class Nearest:
         gain, level = homeostatic()
         attractors = self._learned.attractors(self._selection, seen.posture)
         off = float("nan") if percept.hand is None else np.linalg.norm(percept.hand - target)
-        return drawn_by(
+        decision = drawn_by(
             attractors,
             self._selection,
             seen.posture,
@@ -43,4 +52,8 @@ class Nearest:
             level,
             target=target,
             distance=float(off),
+        )
+        to_go = decision.postures[0] - seen.posture
+        return braking(
+            decision, able_to_stop(decision.velocity, to_go, self.acceleration, self.period)
         )

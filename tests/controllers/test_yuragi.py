@@ -29,7 +29,7 @@ def decisions(controller: Yuragi, distances) -> list:
     """What is decided when the hand is seen at these distances from the target; None: unseen."""
     found = []
     for step, distance in enumerate(distances):
-        place = None if distance is None else MIDDLE + (distance, 0.0)
+        place = None if distance is None else np.add(MIDDLE, (distance, 0.0))
         percept = hand_at(step, place)
         found.append(controller.decide(seen_at(step, np.zeros(3)), percept, MIDDLE, DYNAMICS))
     return found
