@@ -2,6 +2,7 @@
 
 import json
 import zipfile
+import zlib
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -16,6 +17,19 @@ from imitation.visuo_motor_map import Learning, VisuoMotorMap
 
 VERSION = 1  # of the file's layout
 MAX_BYTES = 64 * 2**20  # no map comes near; a larger file is none
+# What reading a file that is no map may end in: NumPy, JSON and ZIP each have their own.
+UNREADABLE = (
+    ArithmeticError,
+    EOFError,
+    LookupError,
+    MemoryError,
+    OSError,
+    RuntimeError,  # an unknown compression, a password
+    TypeError,
+    ValueError,
+    zipfile.BadZipFile,
+    zlib.error,
+)
 
 
 def fingerprint(body: Body, field: VisualField, space: VisualSpace) -> dict[str, Any]:
@@ -83,7 +97,7 @@ def load_map(path: Path) -> LearnedMap:
             facts = json.loads(str(stored["facts"]))
             arrays = {name: stored[name] for name in ("postures", "places", "visits", "outline")}
         return _rebuilt(facts, arrays)
-    except (OSError, KeyError, TypeError, ValueError, EOFError, zipfile.BadZipFile) as error:
+    except UNREADABLE as error:
         reason = str(error).splitlines()[0][:120] if str(error) else type(error).__name__
         raise ValueError(f"{file} is no map of this program, or is damaged ({reason})") from error
 
@@ -101,18 +115,21 @@ def _rebuilt(facts: dict[str, Any], arrays: dict[str, Array]) -> LearnedMap:
         columns=shape["columns"],
         left=shape["left_px"],
     )
-    learned = VisuoMotorMap(
-        field,
-        np.array(told["lower_rad"]),
-        np.array(told["upper_rad"]),
-        int(facts["neurons"]),
-        Learning(**facts["learning"]),
-    )
-    for name in ("postures", "places", "visits"):
-        wanted, got = getattr(learned, name), arrays[name]
-        if got.shape != wanted.shape or got.dtype.kind not in "fi":
-            raise ValueError(f"{name} has shape {got.shape}, wanted {wanted.shape}")
-        setattr(learned, name, got.astype(wanted.dtype))
+    lower, upper = (np.array(told[key], dtype=float) for key in ("lower_rad", "upper_rad"))
+    neurons = int(facts["neurons"])
+    cells = (*field.shape, neurons)
+    for name, wanted in (
+        ("postures", (*cells, len(lower))),
+        ("places", (*cells, 2)),
+        ("visits", field.shape),
+        ("outline", (len(arrays["outline"]), 2)),
+    ):
+        got = arrays[name]
+        if got.shape != wanted or got.dtype.kind not in "fi":
+            raise ValueError(f"{name} has shape {got.shape}, wanted {wanted}")
+    learned = VisuoMotorMap(field, lower, upper, neurons, Learning(**facts["learning"]))
+    learned.postures, learned.places = arrays["postures"], arrays["places"]
+    learned.visits = arrays["visits"].astype(np.int64)
     return LearnedMap(learned, arrays["outline"], told)
 
 
