@@ -82,7 +82,7 @@ def test_the_same_map_is_saved_as_the_same_bytes(file, tmp_path):
 
 def test_a_map_that_is_not_there_is_refused_with_what_to_type(tmp_path):
     for path in (tmp_path, tmp_path / "nowhere.npz"):
-        with pytest.raises(ValueError, match="no map at .*imitate learn-map"):
+        with pytest.raises(ValueError, match=r"no map at .*imitate learn-map"):
             load_map(path)
 
 

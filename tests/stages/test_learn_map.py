@@ -188,6 +188,7 @@ def test_a_jammed_arm_gives_its_goal_up():
     assert steps[-1].seen.time < 5.0
 
 
+@pytest.mark.slow
 def test_a_jammed_arm_learns_what_it_can_reach():
     parts = bench("learn-map", "robot=ideal")
     learner = learner_of(parts, jammed(parts), limit=40.0)
