@@ -153,7 +153,7 @@ class Robot:
         self.arm, self.camera, self.guard, self.home = arm, camera, guard, home
         self.period_ns = period_ns
         self._time_ns = -period_ns  # the first reset is the run's time 0
-        self._velocity = np.zeros(len(home))
+        self._velocity, self._posture = np.zeros(len(home)), home  # as sensed last
         self._truths: list[Truth] = []
 
     @property
@@ -177,8 +177,9 @@ class Robot:
 
     def step(self, command: Command) -> tuple[Observation, Applied]:
         """Obey `command` within the guard's limits for one control period, then sense."""
-        posture = self.arm.read().posture
-        limited, reasons = self.guard.limit(command.velocity, self._velocity, posture, self.period)
+        limited, reasons = self.guard.limit(
+            command.velocity, self._velocity, self._posture, self.period
+        )
         sent = self.arm.move(limited, command.grip, self.period)
         applied = Applied(command.velocity, limited, sent, reasons, self._time_ns)
         self._velocity = limited
@@ -197,6 +198,7 @@ class Robot:
 
     def _sense(self, gaze: Array | None) -> Observation:
         reading = self.arm.read()
+        self._posture = reading.posture
         shot = self.camera.look(self._time_ns, gaze)
         truth = self.arm.truth()
         if truth is not None:

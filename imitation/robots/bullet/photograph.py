@@ -1,7 +1,7 @@
 """Pictures of the PyBullet world with the pixel convention of the bench."""
 
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, lru_cache
 
 import numpy as np
 
@@ -37,6 +37,11 @@ def projection_matrix(space: VisualSpace) -> Array:
     return matrix.T.ravel()
 
 
+@lru_cache(maxsize=1)  # the neck seldom moves
+def _view_from(x: float, y: float, z: float, pan: float, tilt: float) -> Array:
+    return view_matrix(np.array((x, y, z)), np.array((pan, tilt)))
+
+
 @dataclass(frozen=True)
 class BulletScene:
     """The PyBullet world as a camera sees it."""
@@ -45,4 +50,5 @@ class BulletScene:
 
     def photograph(self, space: VisualSpace, eye: Array, gaze: Array) -> Image:
         """The picture from `eye` [m] along `gaze` [rad], RGB."""
-        return self.world.render(view_matrix(eye, gaze), projection_matrix(space), space.size)
+        view = _view_from(*eye.tolist(), *gaze.tolist())
+        return self.world.render(view, projection_matrix(space), space.size)

@@ -261,8 +261,10 @@ class World:
         self._mark = pybullet.createMultiBody(0.0, -1, shape, (0, 0, 0), **call)
         self.carry_mark()
 
-    def carry_mark(self) -> None:
-        """Put the mark where the hand is."""
+    def carry_mark(self) -> Array:
+        """Put the mark where the hand is; returns its centre, (3,) [m]."""
+        position = self.mark_position()
         pybullet.resetBasePositionAndOrientation(
-            self._mark, self.mark_position().tolist(), (0, 0, 0, 1), physicsClientId=self._client
+            self._mark, position.tolist(), (0, 0, 0, 1), physicsClientId=self._client
         )
+        return position
