@@ -26,11 +26,7 @@ class Worker(Generic[Item]):
         pause: float | None,
     ) -> None:
         self._work, self._idle, self._pause = work, idle, pause
-        # Two plain queues, of items and of free places, cost a fifth of one that is bounded.
-        self._items: queue.SimpleQueue[Item | None] = queue.SimpleQueue()
-        self._places: queue.SimpleQueue[None] = queue.SimpleQueue()
-        for _ in range(limit):
-            self._places.put(None)
+        self._queue: queue.Queue[Item | None] = queue.Queue(limit)
         self._error: Exception | None = None
         self._thread = threading.Thread(target=self._run, name="recorder", daemon=True)
         self._thread.start()
@@ -47,16 +43,12 @@ class Worker(Generic[Item]):
             Exception: Whatever the worker failed with.
         """
         self.check()
-        try:
-            self._places.get(timeout=patience)
-        except queue.Empty:
-            raise queue.Full from None
-        self._items.put(item)
+        self._queue.put(item, timeout=patience)
 
     def finish(self) -> None:
         """Wait until every item is done and the thread has ended; harmless when repeated."""
         if self._thread.is_alive():
-            self._items.put(None)
+            self._queue.put(None)
             self._thread.join()
 
     def check(self) -> None:
@@ -70,15 +62,12 @@ class Worker(Generic[Item]):
                 self._work(item)
         except Exception as error:
             self._error = error
-            while self._items.get() is not None:  # emptied, so that nobody waits for it
-                self._places.put(None)
+            while self._queue.get() is not None:  # emptied, so that nobody waits for it
+                pass
 
     def _next(self) -> Item | None:
         while True:
             try:
-                item = self._items.get(timeout=self._pause)
+                return self._queue.get(timeout=self._pause)
             except queue.Empty:
                 self._idle()
-                continue
-            self._places.put(None)
-            return item

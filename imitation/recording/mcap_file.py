@@ -166,12 +166,13 @@ class _QuickWriter(Writer):
         )
         chunk.record_writer.write(head)
         chunk.record_writer.write(data)
-        for tally, count in ((chunk, chunk.num_messages), (told, told.message_count)):
-            if not count or log_time < tally.message_start_time:
-                tally.message_start_time = log_time
-            if log_time > tally.message_end_time:
-                tally.message_end_time = log_time
+        first = chunk.num_messages == 0
+        chunk.message_start_time = log_time if first else min(chunk.message_start_time, log_time)
+        chunk.message_end_time = max(chunk.message_end_time, log_time)
         chunk.num_messages += 1
+        first = told.message_count == 0
+        told.message_start_time = log_time if first else min(told.message_start_time, log_time)
+        told.message_end_time = max(told.message_end_time, log_time)
         told.message_count += 1
         told.channel_message_counts[channel_id] += 1
 
