@@ -3,7 +3,7 @@
 import numpy as np
 
 from imitation.arrays import Array
-from imitation.dynamics import Dynamics
+from imitation.dynamics import Dynamics, able_to_stop
 from imitation.sample import Decision, attractors_not_in_map
 from imitation.visuo_motor_map import Attractors
 
@@ -52,6 +52,21 @@ def drawn_by(
 def one_attractor(posture: Array) -> Attractors:
     """A single attractor at `posture` (n_joints,) [rad] that no cluster holds."""
     return Attractors(posture[None], np.ones(1), attractors_not_in_map(1))
+
+
+def coming_to_rest(
+    decision: Decision, posture: Array, acceleration: Array, period: float
+) -> Decision:
+    """`decision` slowed so that the arm can stop at its only attractor.
+
+    Args:
+        decision: Drawn by one attractor.
+        posture: The present posture, (n_joints,) [rad].
+        acceleration: What each joint may brake with, (n_joints,) [rad/s^2].
+        period: Control period [s].
+    """
+    to_go = decision.postures[0] - posture
+    return braking(decision, able_to_stop(decision.velocity, to_go, acceleration, period))
 
 
 def braking(decision: Decision, velocity: Array) -> Decision:

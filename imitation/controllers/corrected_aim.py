@@ -5,8 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from imitation.arrays import Array
-from imitation.deciding import braking, drawn_by, one_attractor
-from imitation.dynamics import Dynamics, able_to_stop, homeostatic
+from imitation.deciding import coming_to_rest, drawn_by, one_attractor
+from imitation.dynamics import Dynamics, homeostatic
 from imitation.pairing import PostureHistory
 from imitation.perception import Percept
 from imitation.regression import locally_linear
@@ -79,10 +79,7 @@ class CorrectedAim:
             target=target,
             distance=distance,
         )
-        to_go = decision.postures[0] - seen.posture
-        return braking(
-            decision, able_to_stop(decision.velocity, to_go, self.acceleration, self.period)
-        )
+        return coming_to_rest(decision, seen.posture, self.acceleration, self.period)
 
     def _correct(self, percept: Percept, hand: Array, target: Array) -> None:
         posture = self._history.at(percept.time_ns)

@@ -5,8 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from imitation.arrays import Array
-from imitation.deciding import braking, drawn_by
-from imitation.dynamics import Dynamics, able_to_stop, homeostatic
+from imitation.deciding import coming_to_rest, drawn_by
+from imitation.dynamics import Dynamics, homeostatic
 from imitation.perception import Percept
 from imitation.robot import Observation
 from imitation.sample import Decision
@@ -53,7 +53,4 @@ class Nearest:
             target=target,
             distance=float(off),
         )
-        to_go = decision.postures[0] - seen.posture
-        return braking(
-            decision, able_to_stop(decision.velocity, to_go, self.acceleration, self.period)
-        )
+        return coming_to_rest(decision, seen.posture, self.acceleration, self.period)

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from imitation.arrays import Array
-from imitation.deciding import braking, drawn_by, one_attractor
-from imitation.dynamics import Dynamics, able_to_stop, homeostatic
+from imitation.deciding import coming_to_rest, drawn_by, one_attractor
+from imitation.dynamics import Dynamics, homeostatic
 from imitation.pairing import PostureHistory
 from imitation.perception import Perception
 from imitation.robot import Command, Observation, Robot
@@ -107,9 +107,8 @@ class Learner:
         decision = drawn_by(
             attractor, goal.selection, seen.posture, self.dynamics, gain, level, target=goal.place
         )
-        acceleration, period = self.robot.body.acceleration, self.robot.period
-        to_go = goal.posture - seen.posture
-        return braking(decision, able_to_stop(decision.velocity, to_go, acceleration, period))
+        body, period = self.robot.body, self.robot.period
+        return coming_to_rest(decision, seen.posture, body.acceleration, period)
 
 
 def learn_map(learner: Learner, babbling: Babbling) -> Iterator[Sample]:
