@@ -80,7 +80,7 @@ class Guard(Section):
 
     margin: NotNegative
     least_clearance: NotNegative
-    points: list[GuardPoint]
+    points: Annotated[list[GuardPoint], Within(min_length=1)]
     table_height: float
     base_radius: NotNegative
     base_height: NotNegative

@@ -56,6 +56,8 @@ def _not_composed(command: str, error: ConfigCompositionException) -> str:
     unknown = re.match(r"Could not (?:override|append to config|delete).*?'(\S+?)'", text)
     if unknown:
         known = [*groups_of(command), *comments(command)]
+        if unknown[1] in known:
+            return f"key {unknown[1]} does not go with the other words typed: their choice lacks it"
         return f"unknown key {unknown[1]}{nearest(unknown[1], known)}"
     cause = error.__cause__
     return f"{_first_line(error)}{f': {_first_line(cause)}' if cause else ''}"

@@ -134,6 +134,8 @@ def guard_of(
     base_height: float,
 ) -> Guard:
     """The guard of an arm over a table; `points` are {link, at [m], radius [m]} along the arm."""
+    if np.any(2 * margin >= body.upper - body.lower):
+        raise ValueError(f"robot.guard.margin={margin:g} rad leaves a joint no room to move")
     followed = [(str(point["link"]), np.asarray(point["at"], dtype=float)) for point in points]
     chain = KinematicChain(
         find_urdf(urdf), body.joint_names, followed, np.asarray(base, dtype=float)

@@ -99,6 +99,10 @@ class KinematicChain:
         unknown = [name for name in joint_names if name not in by_name]
         if unknown:
             raise ValueError(f"{urdf.name} has no joint {unknown[0]}; it has {sorted(by_name)}")
+        links = {joint.parent for joint in by_child.values()} | set(by_child)
+        for link, _ in points:
+            if link not in links:
+                raise ValueError(f"{urdf.name} has no link {link}; it has {sorted(links)}")
         self.limits = [by_name[name] for name in joint_names]
         self._base = transform(np.eye(3), base)
         self._order: list[Joint] = []  # parents before children

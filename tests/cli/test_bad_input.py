@@ -32,6 +32,13 @@ TYPED = [
     (["learn-map", "robot.arm.mark.link=x"], ["katana_6m180.urdf has no x", "gripper"]),
     (["learn-map", "robot.arm.fingers=[x]"], ["katana_6m180.urdf has no x", "finger"]),
     (["learn-map", "robot.arm.table.size=2"], ["robot.arm.table.size=2", "a list"]),
+    (["learn-map", "robot=ideal", "robot.arm.mark.link=x"], ["no link x", "gripper"]),
+    (["learn-map", "robot=ideal", "robot.arm.rate=1"], ["robot.arm.rate does not go with"]),
+    (
+        ["learn-map", "robot=ideal", "robot.guard.points=[]"],
+        ["robot.guard.points=[]", "at least 1"],
+    ),
+    (["learn-map", "robot=ideal", "robot.guard.margin=5"], ["margin=5", "no room"]),
     (["learn-map", "robot.arm._target_=nowhere.arm"], ["nowhere.arm"]),
     (["learn-map", "seed=0,1"], ["several values", "-m"]),
     (["learn-map", "seed=[1"], ["seed=[1", "quotes"]),
