@@ -16,6 +16,7 @@ from cli.folder import make_run_folder, unmake_run_folder
 from cli.interruption import STOP, sigterm_like_ctrl_c
 from cli.report import show
 from cli.run import Outcome, Run
+from imitation.device import DeviceError
 from imitation.recording.mcap_recording import RecorderError
 
 Work = Callable[[Run], Outcome]
@@ -50,7 +51,7 @@ def explain(error: Exception) -> int:
     if is_refusal(error):
         _say(str(error))
         return BAD_INPUT
-    if isinstance(error, RecorderError):
+    if isinstance(error, RecorderError | DeviceError):
         _say(str(error))
         return DEVICE
     traceback.print_exception(error)  # a bug of this program, nothing a user could mend
