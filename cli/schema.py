@@ -86,11 +86,21 @@ class Guard(Section):
     base_height: NotNegative
 
 
+class Head(Section):
+    """`robot.head`."""
+
+    size: Size
+    focal_px: Positive
+    eye: Triple
+    gaze: Pair
+
+
 class Robot(Section):
     """`robot`."""
 
     name: str
     arm: Target
+    head: Head
     guided: Annotated[list[Posture], Within(min_length=2)]
     guard: Guard
 
