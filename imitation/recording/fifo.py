@@ -8,6 +8,10 @@ from typing import Generic, TypeVar
 Item = TypeVar("Item")
 
 
+class WorkFailedError(RuntimeError):
+    """The worker has ended; why is its cause."""
+
+
 class Worker(Generic[Item]):
     """Does `work` on each item in a thread; an error of it comes out at the next `put`.
 
@@ -27,7 +31,7 @@ class Worker(Generic[Item]):
     ) -> None:
         self._work, self._idle, self._pause = work, idle, pause
         self._queue: queue.Queue[Item | None] = queue.Queue(limit)
-        self._error: Exception | None = None
+        self._error: BaseException | None = None
         self._thread = threading.Thread(target=self._run, name="recorder", daemon=True)
         self._thread.start()
 
@@ -40,7 +44,7 @@ class Worker(Generic[Item]):
 
         Raises:
             queue.Full: The queue stayed full for longer than `patience`.
-            Exception: Whatever the worker failed with.
+            WorkFailedError: The thread has ended.
         """
         self.check()
         self._queue.put(item, timeout=patience)
@@ -52,15 +56,15 @@ class Worker(Generic[Item]):
             self._thread.join()
 
     def check(self) -> None:
-        """Raise the worker's error, if it has one."""
+        """Raise an error if the worker has failed."""
         if self._error is not None:
-            raise self._error
+            raise WorkFailedError from self._error
 
     def _run(self) -> None:
         try:
             while (item := self._next()) is not None:
                 self._work(item)
-        except Exception as error:
+        except BaseException as error:  # whatever ends the thread ends the run
             self._error = error
             while self._queue.get() is not None:  # emptied, so that nobody waits for it
                 pass

@@ -10,8 +10,9 @@ from typing import Any
 
 from imitation.recording import messages
 from imitation.recording.digest import Digest
-from imitation.recording.fifo import Worker
-from imitation.recording.mcap_file import Contents, McapFile, chunks, contents
+from imitation.recording.fifo import Worker, WorkFailedError
+from imitation.recording.mcap_file import McapFile
+from imitation.recording.mcap_reading import Contents, chunks, contents
 from imitation.recording.step_messages import Message, StepMessages, Topic
 from imitation.robot import SECOND, Body, Truth
 from imitation.sample import Sample
@@ -101,6 +102,8 @@ class Recorder:
             if not self._failed:
                 self._worker.check()
                 self._file.seal()
+        except WorkFailedError as error:
+            raise self._failure(error.__cause__ or error) from error
         except OSError as error:
             raise self._failure(error) from error
         finally:
@@ -122,9 +125,10 @@ class Recorder:
         sample, truths = step
         self._file.add_step(sample, self._steps.of(sample, truths))
 
-    def _failure(self, error: OSError) -> RecorderError:
+    def _failure(self, error: BaseException) -> RecorderError:
         self._failed = True
-        return RecorderError(f"{self._name} cannot be written: {error.strerror or error}")
+        told = error.strerror if isinstance(error, OSError) else None
+        return RecorderError(f"{self._name} cannot be written: {told or repr(error)}")
 
 
 def bounds(max_loss: float, period_ns: int) -> tuple[int, int]:
@@ -169,6 +173,8 @@ class Recording:
         if not file.is_file():
             raise ValueError(f"no recording at {file}; give a run folder or its run.mcap")
         found = contents(file)
+        if found.profile != "ros2":
+            raise ValueError(f"{file} is no recording of this bench: it is not a ROS 2 bag")
         if not {"run", "field"} <= found.metadata.keys():
             raise ValueError(f"{file} is no recording of this bench: its record `run` is missing")
         return cls(file, found)

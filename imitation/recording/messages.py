@@ -2,12 +2,14 @@
 
 import json
 import math
+import struct
 from collections.abc import Sequence
 from functools import cache
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from rosbags.serde import SerdeError
 from rosbags.typesys import Stores, get_typestore
 
 STORE: Any = get_typestore(Stores.ROS2_JAZZY)
@@ -23,6 +25,8 @@ POINT = "geometry_msgs/msg/PointStamped"
 POSE = "geometry_msgs/msg/PoseStamped"
 LOG = "rcl_interfaces/msg/Log"
 LOG_INFO = 20
+# What decoding bytes that are no message may end in.
+UNREADABLE = (AssertionError, LookupError, MemoryError, SerdeError, ValueError, struct.error)
 
 # Stand for what changes from message to message; no constant part of a message holds them.
 STAMP_MARK = (0x5EC05EC0, 0x0A9051AB)
@@ -59,8 +63,15 @@ def serialised(message: Any) -> bytes:
 
 
 def decoded(data: bytes, type_name: str) -> Any:
-    """The rosbags message that `data` (CDR) holds."""
-    return STORE.deserialize_cdr(data, type_name)
+    """The rosbags message that `data` (CDR) holds.
+
+    Raises:
+        ValueError: It holds none of this type.
+    """
+    try:
+        return STORE.deserialize_cdr(data, type_name)
+    except UNREADABLE as error:
+        raise ValueError(f"a message is damaged: it is no {type_name}") from error
 
 
 def definition(type_name: str) -> str:

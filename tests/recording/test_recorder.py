@@ -67,7 +67,7 @@ def test_messages_are_the_same_when_chunks_close_by_the_clock(record):
 
 def test_quick_packing_gives_the_bytes_of_the_library(record, monkeypatch):
     quick = record("quick.mcap").read_bytes()
-    monkeypatch.setattr(mcap_file, "_QuickWriter", Writer)
+    monkeypatch.setattr(mcap_file, "QuickWriter", Writer)
     assert record("slow.mcap").read_bytes() == quick
     assert CompressionType.ZSTD.name.lower().encode() in quick
 
@@ -132,6 +132,24 @@ def test_full_disk_is_told_in_the_loop_and_leaves_a_readable_file(tmp_path):
         signal.signal(signal.SIGXFSZ, ignored)
     assert next(steps)[0].seen.time_ns < 10_000 * made_up.PERIOD_NS  # told long before the end
     recording = Recording.open(path)
+    assert not recording.whole and any(recording.messages("/joint_states"))
+
+
+@pytest.mark.parametrize("death", [ZeroDivisionError("by zero"), SystemExit(1)])
+def test_writer_thread_that_dies_is_told_in_the_loop(tmp_path, monkeypatch, death):
+    real = mcap_file.McapFile.add_step
+
+    def dies(self, sample, step):
+        if sample.seen.time_ns > 1e9:
+            raise death
+        real(self, sample, step)
+
+    monkeypatch.setattr(mcap_file.McapFile, "add_step", dies)
+    told = pytest.raises(RecorderError, match=r"run.mcap cannot be written")
+    with told, made_up.recorder(tmp_path / "run.mcap") as recorder:
+        for sample, truths in made_up.run(1000):
+            recorder.write(sample, truths)
+    recording = Recording.open(tmp_path / "run.mcap")
     assert not recording.whole and any(recording.messages("/joint_states"))
 
 

@@ -1,0 +1,155 @@
+"""What an MCAP file holds, whole or cut: records and messages in the order written."""
+
+import os
+import struct
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from io import BytesIO
+from pathlib import Path
+from typing import Any
+
+from mcap.data_stream import ReadDataStream
+from mcap.exceptions import McapError
+from mcap.opcode import Opcode
+from mcap.records import Attachment, Channel, Chunk, Header, McapRecord, Metadata, Schema
+from mcap.stream_reader import get_chunk_data_stream
+from mcap.writer import MCAP0_MAGIC
+from zstandard import ZstdError, frame_content_size
+
+from imitation.recording.mcap_quick import MESSAGE_HEAD
+from imitation.recording.step_messages import Message
+from imitation.robot import SECOND
+
+LARGEST_CHUNK = 2**28  # no chunk of ours comes near [bytes]
+RECORD_HEAD = struct.Struct("<BQ")  # opcode, length
+BESIDE_MESSAGES: dict[int, Any] = {
+    Opcode.HEADER: Header,
+    Opcode.METADATA: Metadata,
+    Opcode.ATTACHMENT: Attachment,
+    Opcode.SCHEMA: Schema,
+    Opcode.CHANNEL: Channel,
+}
+
+
+@dataclass
+class Contents:
+    """What a file holds beside its messages."""
+
+    profile: str = ""  # ros2 for a bag of ours
+    whole: bool = False  # closed as it should be, not cut
+    metadata: dict[str, dict[str, str]] = field(default_factory=dict)
+    attachments: dict[str, bytes] = field(default_factory=dict)
+    channels: dict[int, Channel] = field(default_factory=dict)
+    schemas: dict[int, Schema] = field(default_factory=dict)
+
+    def take(self, record: McapRecord) -> None:
+        """Keep what `record` says."""
+        if isinstance(record, Header):
+            self.profile = record.profile
+        elif isinstance(record, Metadata):
+            self.metadata[record.name] = record.metadata
+        elif isinstance(record, Attachment):
+            self.attachments[record.name] = record.data
+        elif isinstance(record, Channel):
+            self.channels[record.id] = record
+        elif isinstance(record, Schema):
+            self.schemas[record.id] = record
+
+
+def contents(path: Path) -> Contents:
+    """What the file holds, as far as it goes.
+
+    Raises:
+        ValueError: It is no MCAP file, or it is damaged.
+    """
+    found = Contents()
+    for record in records(path, BESIDE_MESSAGES):
+        found.take(record)
+    with path.open("rb") as stream:
+        stream.seek(-len(MCAP0_MAGIC), os.SEEK_END)
+        found.whole = stream.read() == MCAP0_MAGIC
+    if not found.whole:  # without the summary at its end, the channels stand in the chunks alone
+        for _ in chunks(path, found):
+            pass
+    return found
+
+
+def chunks(path: Path, found: Contents) -> Iterator[list[Message]]:
+    """The messages of each chunk in the order written, up to where the file was cut.
+
+    Args:
+        path: The file.
+        found: Learns the channels on the way.
+
+    Raises:
+        ValueError: A chunk is damaged.
+    """
+    for chunk in records(path, {Opcode.CHUNK: Chunk}):
+        data = unpacked(path, chunk)
+        try:
+            told = list(_messages(data, found))
+        except (KeyError, McapError, ValueError, struct.error) as error:
+            at = chunk.message_start_time / SECOND
+            raise ValueError(f"{path} is damaged at {at:.2f} s of the run: {error!r}") from error
+        yield told
+
+
+def unpacked(path: Path, chunk: Chunk) -> bytes:
+    """The records in a chunk.
+
+    Raises:
+        ValueError: It is damaged.
+    """
+    try:
+        told = chunk.uncompressed_size
+        if chunk.compression == "zstd":  # the frame tells its size too: as much would be taken
+            told = max(told, frame_content_size(chunk.data))
+        if told > LARGEST_CHUNK:
+            raise ValueError(f"a chunk of {told} bytes")
+        stream, length = get_chunk_data_stream(chunk, validate_crc=True)
+        return bytes(stream.read(length))
+    except (McapError, RuntimeError, ValueError, ZstdError) as error:
+        at = chunk.message_start_time / SECOND
+        raise ValueError(f"{path} is damaged at {at:.2f} s of the run: {error}") from error
+
+
+def _messages(data: bytes, found: Contents) -> Iterator[Message]:
+    at = 0
+    while at < len(data):
+        opcode, length = RECORD_HEAD.unpack_from(data, at)
+        start, end = at + RECORD_HEAD.size, at + RECORD_HEAD.size + length
+        if opcode == Opcode.MESSAGE:
+            _, _, channel, _, time_ns, _ = MESSAGE_HEAD.unpack_from(data, at)
+            topic = found.channels[channel].topic
+            yield Message(topic, time_ns, data[at + MESSAGE_HEAD.size : end])
+        elif opcode in (Opcode.CHANNEL, Opcode.SCHEMA):
+            found.take(BESIDE_MESSAGES[opcode].read(ReadDataStream(BytesIO(data[start:end]))))
+        at = end
+
+
+def records(path: Path, kinds: Mapping[int, Any]) -> Iterator[Any]:
+    """Whole records of some kinds, up to the file's end or to where it was cut.
+
+    Raises:
+        ValueError: It is no MCAP file, or a record is damaged.
+    """
+    size = path.stat().st_size
+    with path.open("rb") as stream:
+        if stream.read(len(MCAP0_MAGIC)) != MCAP0_MAGIC:
+            raise ValueError(f"{path} is no recording: it is not an MCAP file")
+        while len(head := stream.read(RECORD_HEAD.size)) == RECORD_HEAD.size:
+            opcode, length = RECORD_HEAD.unpack(head)
+            end = stream.tell() + length
+            if end > size:
+                return
+            if opcode in kinds:
+                yield _record(path, kinds[opcode], stream.read(length))
+            stream.seek(end)
+
+
+def _record(path: Path, kind: Any, data: bytes) -> Any:
+    try:
+        return kind.read(ReadDataStream(BytesIO(data)))
+    except (McapError, ValueError, struct.error) as error:
+        name = kind.__name__.lower()
+        raise ValueError(f"{path} is damaged: a record {name} cannot be read") from error
