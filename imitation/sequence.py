@@ -82,7 +82,7 @@ class TimedSequence:
         self.keys.append(key)
         self._time = time
 
-    def after(self, key: Key, state: int) -> Key:
+    def after(self, key: Key, state: State) -> Key:
         """What stands for `state` when it comes after `key`."""
         return (*key, state)[-self.context - 1 :]
 
