@@ -1,6 +1,9 @@
 """From what is seen of a hand to visual states: where it rests, in which area, since when (IV)."""
 
+from collections import deque
 from dataclasses import dataclass
+
+import numpy as np
 
 from imitation.arrays import Array
 from imitation.visual_field import Area
@@ -11,5 +14,74 @@ class VisualState:
     """An area in which the hand rested."""
 
     area: Area
-    place: Array  # where the hand was seen resting, (2,) [px of visual space]
+    place: Array  # where it was seen resting, (2,) [px of visual space]
     time: float  # when the area began to win [s]
+
+
+@dataclass(frozen=True)
+class Resting:
+    """What counts as a visual state."""
+
+    dwell: float  # one area wins, and the hand rests, for this long [s]
+    still: float  # resting: seen this near to the middle of the places seen meanwhile [px]
+    hysteresis: float  # an area wins from another when it shows this much more [share of the hand]
+    lost: float  # a hand unseen for longer has left [s]
+
+
+class VisualStates:
+    """Watches a hand and tells the states it comes through, each as soon as it is one.
+
+    An area that is only crossed is none, however often its border is; a hand that goes on resting,
+    on whichever side of a border it is seen, makes no second one.
+    """
+
+    def __init__(self, resting: Resting) -> None:
+        self.resting = resting
+        self.states: list[VisualState] = []
+        self._seen: deque[tuple[float, Array]] = deque()  # time [s] and place [px], for `dwell`
+        self._area: Area | None = None  # the one that wins
+        self._since = 0.0  # when it began to [s]
+
+    def see(self, time: float, visual_input: Array, hand: Array | None) -> VisualState | None:
+        """Take notice of a new frame; returns the state that the hand is found in, if it is new.
+
+        Args:
+            time: When the frame was captured [s].
+            visual_input: I, (rows, columns).
+            hand: Where the hand is seen, (2,) [px]; None: it is not.
+        """
+        if hand is None or not visual_input.any():
+            return None
+        if self._seen and time - self._seen[-1][0] > self.resting.lost:
+            self._seen.clear()
+            self._area = None
+        winner = self._winner(visual_input)
+        if winner != self._area:
+            self._area, self._since = winner, time
+        self._seen.append((time, hand))
+        while time - self._seen[0][0] > self.resting.dwell:
+            self._seen.popleft()
+        return self._new_state(time)
+
+    def _winner(self, visual_input: Array) -> Area:
+        row, column = np.unravel_index(visual_input.argmax(), visual_input.shape)
+        strongest = int(row), int(column)
+        if self._area is None:
+            return strongest
+        lead = visual_input[strongest] - visual_input[self._area]
+        return strongest if lead > self.resting.hysteresis else self._area
+
+    def _new_state(self, time: float) -> VisualState | None:
+        if self._area is None or time - self._since < self.resting.dwell:
+            return None
+        places = np.array([place for _, place in self._seen])
+        middle = np.median(places, axis=0)
+        if np.linalg.norm(places - middle, axis=1).max() > self.resting.still:
+            return None
+        if self.states:
+            last = self.states[-1]
+            moved = np.linalg.norm(middle - last.place) > self.resting.still
+            if self._area == last.area or not moved:
+                return None
+        self.states.append(VisualState(self._area, middle, self._since))
+        return self.states[-1]
