@@ -80,12 +80,14 @@ class Bench:
         """The arm, its camera and the guard."""
         node = self.cfg["robot"]
         arm = make_offered(node["arm"], {"period": self.period_ns / SECOND})
-        camera = make(
-            _plain(self.cfg["camera"], "size", "focal_px"),
-            arm=arm,
-            space=self.space,
-            rng=generator(self.cfg["seed"], "camera"),
-        )
+        offered = {
+            "arm": arm,
+            "space": self.space,
+            "reference": self.space.reference,
+            "gaze": self.cfg["camera"]["gaze"],
+            "rng": generator(self.cfg["seed"], "camera"),
+        }
+        camera = make_offered(_plain(self.cfg["camera"], "size", "focal_px", "gaze"), offered)
         shared = {"urdf": node["arm"]["urdf"], "base": node["arm"]["base"]}
         guard = guard_of(arm.body, **shared, **node["guard"])
         return Robot(arm, camera, guard, self.guided.mean(axis=0), self.period_ns)

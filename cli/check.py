@@ -15,7 +15,8 @@ from cli.keys import comments
 from cli.ranges import RANGES
 from cli.schema import COMMANDS, Target
 
-SUPPLIED = {"arm", "space", "rng", "acceleration", "period"}  # given by cli/build.py when asked for
+# Given by cli/build.py when asked for.
+SUPPLIED = {"arm", "space", "reference", "gaze", "rng", "acceleration", "period"}
 
 PYDANTIC = {
     "Input should be ": "",
@@ -53,7 +54,8 @@ def checked(command: str, composed: DictConfig) -> Config:
 def missing(command: str, key: str) -> str:
     """That a key must be given."""
     told = comments(command).get(key, "")
-    return f"{command} needs {key}={f' ({told})' if told else ''}; type {key}={key.upper()}"
+    what = key.rpartition(".")[2].upper()
+    return f"{command} needs {key}={f' ({told})' if told else ''}; type {key}={what}"
 
 
 def targets(model: BaseModel, path: tuple[str, ...]) -> Iterator[tuple[tuple[str, ...], Target]]:

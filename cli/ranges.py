@@ -1,6 +1,6 @@
 """What the parameters of a `_target_` may hold, by section and parameter."""
 
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 from pydantic import Field as Within
 
@@ -11,7 +11,7 @@ from cli.schema import (
     HueRange,
     Names,
     NotNegative,
-    Pair,
+    Place,
     Positive,
     Section,
     Triple,
@@ -40,9 +40,18 @@ class Table(Section):
 RANGES: dict[str, dict[str, Any]] = {
     "camera": {
         "eye": Triple,
-        "gaze": Pair,
         "noise_px": NotNegative,
         "delay_frames": Whole,
+        "path": Place,
+        "device": Place,
+        "start": NotNegative,
+        "end": Positive | None,
+        "stale": Positive,
+        "frozen": Positive | None,
+        "lost": Positive,
+        "aspect": Literal["crop", "fit"],
+        "mirror": bool,
+        "quality": Annotated[int, Within(ge=1, le=100)],
     },
     "vision": {
         "hue": HueRange,

@@ -20,6 +20,7 @@ from cli.build import Bench, Config
 from cli.interruption import Interruption
 from cli.progress import ProgressReport
 from cli.provenance import run_record, sha256
+from imitation.analysis.frame_count import FrameCount
 from imitation.recording.mcap_recording import Recorder
 from imitation.robot import SECOND, Truth
 from imitation.robots.bullet.world import find_urdf
@@ -60,6 +61,8 @@ class Run:
     status: str = ""  # as metrics.json says it; empty until it is written
     steps: int = 0
     robot_time_s: float = 0.0
+    late_ticks: int = 0  # steps that took longer than a period of real time
+    _frames: FrameCount = field(default_factory=FrameCount)
     _inputs: dict[str, Path] = field(default_factory=dict)
     _began: float = field(default_factory=time.monotonic)
 
@@ -130,6 +133,8 @@ class Run:
             "robot_time_s": self.robot_time_s,
             "wall_time_s": round(time.monotonic() - self._began, 3),
             "steps": self.steps,
+            "late_ticks": self.late_ticks,
+            **self._frames.result(),
             **more,
         }
         text = json.dumps(plain(content), indent=2, allow_nan=False, ensure_ascii=False)
@@ -145,6 +150,8 @@ class Run:
 
     def _note(self, sample: Sample) -> None:
         self.steps += 1
+        self.late_ticks = self.bench.robot.late_ticks
+        self._frames.add(sample.seen)
         self.robot_time_s = round(sample.applied.time_ns / SECOND + self.bench.robot.period, 9)
         for event in sample.events:
             self.log.info("%.2f s: %s: %s", sample.seen.time, event.kind, event.sentence)
@@ -159,12 +166,16 @@ class Run:
             metadata=run_record(self.command, seed, self.cfg["robot"]["name"]),
             attachments=attached,
             max_loss=settings["max_loss"],
-            reproducible=settings["reproducible"],
+            reproducible=settings["reproducible"] and not robot.live,
+            patience=robot.period if robot.live else None,
         )
 
     def _attachments(self) -> Iterable[tuple[str, bytes]]:
         told = {key: value for key, value in self.cfg.items() if key != "out"}
         told |= {key: f"sha256:{sha256(path)}" for key, path in self._inputs.items()}
+        if film := told["camera"].get("path"):
+            content = sha256(Path(str(film)).expanduser())
+            told["camera"] = {**told["camera"], "path": f"sha256:{content}"}
         yield "config.yaml", OmegaConf.to_yaml(OmegaConf.create(told)).encode()
         for path in self._inputs.values():
             yield path.name, path.read_bytes()

@@ -42,6 +42,7 @@ class Camera(Target):
 
     size: Size
     focal_px: Positive
+    gaze: Pair
 
 
 class Controller(Target):

@@ -6,6 +6,7 @@ from typing import Protocol, runtime_checkable
 import numpy as np
 
 from imitation.arrays import Array, Image
+from imitation.clock import Clock, SimulatedClock, WallClock
 from imitation.guard import Guard
 
 SECOND = 1_000_000_000  # [ns]
@@ -24,6 +25,20 @@ class Body:
 
 
 @dataclass(frozen=True)
+class Shot:
+    """One frame with when and where it was taken."""
+
+    frame: Image
+    time_ns: int
+    gaze: Array  # pan, tilt [rad]
+    place_noise: Array = field(default_factory=lambda: np.zeros(2))  # [px]
+    jpeg: bytes | None = None  # what `frame` was decoded from; None: a simulated camera
+    skipped: tuple["Shot", ...] = ()  # frames that came since the last one looked at, before this
+    trouble: str | None = None  # why nothing should move while this is the newest; None: it may
+    ended: bool = False  # no other frame will come
+
+
+@dataclass(frozen=True)
 class Observation:
     """What the robot senses at one control step."""
 
@@ -39,6 +54,9 @@ class Observation:
     proximity: float  # distance to what is between the fingers [m]; inf: nothing
     touching: bool  # both fingers touch something
     jpeg: bytes | None = None  # what `frame` was decoded from; None: a simulated camera
+    skipped: tuple[Shot, ...] = ()  # frames that came since the step before, and before `frame`
+    begins: bool = False  # an episode
+    ended: bool = False  # the camera has no more frames to show
 
     @property
     def time(self) -> float:
@@ -87,21 +105,11 @@ class JointReading:
     touching: bool = False
 
 
-@dataclass(frozen=True)
-class Shot:
-    """One frame with when and where it was taken."""
-
-    frame: Image
-    time_ns: int
-    gaze: Array  # pan, tilt [rad]
-    place_noise: Array = field(default_factory=lambda: np.zeros(2))  # [px]
-    jpeg: bytes | None = None  # what `frame` was decoded from; None: a simulated camera
-
-
 class Arm(Protocol):
     """An arm with a gripper that obeys joint velocities."""
 
     body: Body
+    live: bool  # it lives in real time
 
     def reset(self, posture: Array) -> None:
         """Be at rest at `posture` [rad]."""
@@ -131,7 +139,9 @@ class Limp(Protocol):
 
 
 class Camera(Protocol):
-    """A camera on a neck."""
+    """A camera, on a neck or still."""
+
+    live: bool  # it lives in real time
 
     def look(self, time_ns: int, gaze: Array | None) -> Shot:
         """Turn to `gaze` (as it is when None) and return the newest frame."""
@@ -147,13 +157,18 @@ class Camera(Protocol):
 
 
 class Robot:
-    """An arm watched by a camera. The only way to move it is through the guard."""
+    """An arm watched by a camera. The only way to move it is through the guard.
+
+    Its clock is the wall's when its arm or its camera lives in real time.
+    """
 
     def __init__(self, arm: Arm, camera: Camera, guard: Guard, home: Array, period_ns: int) -> None:
         self.arm, self.camera, self.guard, self.home = arm, camera, guard, home
-        self.period_ns = period_ns
-        self._time_ns = -period_ns  # the first reset is the run's time 0
+        self.period_ns, self.live = period_ns, arm.live or camera.live
+        self._clock: Clock = (WallClock if self.live else SimulatedClock)(period_ns)
+        self._time_ns = 0
         self._velocity, self._posture = np.zeros(len(home)), home  # as sensed last
+        self._trouble: str | None = None  # with the newest frame
         self._truths: list[Truth] = []
 
     @property
@@ -166,24 +181,32 @@ class Robot:
         """Control period [s]."""
         return self.period_ns / SECOND
 
+    @property
+    def late_ticks(self) -> int:
+        """How many steps took longer than a period; 0 in simulation."""
+        return self._clock.late
+
     def reset(self, posture: Array | None = None) -> Observation:
-        """Be at rest at `posture` [rad] (home when None), at the next tick of the run's clock."""
+        """Be at rest at `posture` [rad] (home when None); an episode begins."""
         start = self.home if posture is None else posture
         self.arm.reset(self.guard.posture_within_limits(start))
         self._velocity = np.zeros(len(self.home))
-        self._time_ns += self.period_ns
+        self._time_ns = self._clock.begin()
         self.camera.reset(self._time_ns)
-        return self._sense(None)
+        return self._sense(None, begins=True)
 
     def step(self, command: Command) -> tuple[Observation, Applied]:
-        """Obey `command` within the guard's limits for one control period, then sense."""
-        limited, reasons = self.guard.limit(
-            command.velocity, self._velocity, self._posture, self.period
-        )
+        """Obey `command` within the guard's limits for one control period, then sense.
+
+        While there is trouble with the newest frame, the arm comes to rest and stays there.
+        """
+        blind = (self._trouble,) if self._trouble else ()
+        wanted = np.zeros(len(self.home)) if blind else command.velocity
+        limited, reasons = self.guard.limit(wanted, self._velocity, self._posture, self.period)
         sent = self.arm.move(limited, command.grip, self.period)
-        applied = Applied(command.velocity, limited, sent, reasons, self._time_ns)
+        applied = Applied(command.velocity, limited, sent, (*blind, *reasons), self._time_ns)
         self._velocity = limited
-        self._time_ns += self.period_ns
+        self._time_ns = self._clock.tick()
         return self._sense(command.gaze), applied
 
     def truth(self) -> list[Truth]:
@@ -196,10 +219,11 @@ class Robot:
         self.arm.close()
         self.camera.close()
 
-    def _sense(self, gaze: Array | None) -> Observation:
+    def _sense(self, gaze: Array | None, begins: bool = False) -> Observation:
         reading = self.arm.read()
         self._posture = reading.posture
         shot = self.camera.look(self._time_ns, gaze)
+        self._trouble = shot.trouble
         truth = self.arm.truth()
         if truth is not None:
             mark, thing = truth
@@ -217,4 +241,7 @@ class Robot:
             proximity=reading.proximity,
             touching=reading.touching,
             jpeg=shot.jpeg,
+            skipped=shot.skipped,
+            begins=begins,
+            ended=shot.ended,
         )

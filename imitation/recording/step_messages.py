@@ -6,10 +6,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from imitation.arrays import Array
+from imitation.arrays import Array, Image
 from imitation.recording import messages
 from imitation.recording.messages import stamp
-from imitation.robot import Applied, Body, Observation, Truth
+from imitation.robot import Applied, Body, Truth
 from imitation.sample import Decision, Event, Sample
 from imitation.visual_field import VisualField
 
@@ -98,7 +98,11 @@ class StepMessages:
         captured = stamp(seen.frame_time_ns)
         if seen.frame_time_ns != self._frame_time_ns:
             self._frame_time_ns = seen.frame_time_ns
-            yield Message("/camera/image", seen.frame_time_ns, _picture(seen, captured))
+            for shot in seen.skipped:
+                picture = _picture(shot.frame, shot.jpeg, shot.time_ns)
+                yield Message("/camera/image", shot.time_ns, picture)
+            picture = _picture(seen.frame, seen.jpeg, seen.frame_time_ns)
+            yield Message("/camera/image", seen.frame_time_ns, picture)
         yield Message("/camera/used", now, messages.header_form("camera").fill(captured))
         joints = messages.joint_form(self._joints)
         state = joints.fill(stamp(now), doubles(seen.posture), doubles(seen.velocity))
@@ -159,12 +163,12 @@ def _truth(truth: Truth) -> Iterator[Message]:
         yield Message("/truth/object", truth.time_ns, pose)
 
 
-def _picture(seen: Observation, captured: bytes) -> bytes:
-    if seen.jpeg is not None:
-        return messages.compressed_image(seen.frame_time_ns, seen.jpeg)
-    frame = np.ascontiguousarray(seen.frame)
-    height, width, channels = frame.shape
-    return messages.image_form((height, width, channels)).fill(captured, frame)
+def _picture(frame: Image, jpeg: bytes | None, time_ns: int) -> bytes:
+    if jpeg is not None:
+        return messages.compressed_image(time_ns, jpeg)
+    pixels = np.ascontiguousarray(frame)
+    height, width, channels = pixels.shape
+    return messages.image_form((height, width, channels)).fill(stamp(time_ns), pixels)
 
 
 def _place(when: bytes, place: Array) -> bytes:

@@ -24,6 +24,8 @@ class IdealArm:
         mark_colour: Its colour, red, green, blue [0..255].
     """
 
+    live = False
+
     def __init__(
         self,
         body: Body,

@@ -30,6 +30,8 @@ class SimulatedCamera:
         rng: Draws that noise.
     """
 
+    live = False
+
     def __init__(
         self,
         scene: Scene,

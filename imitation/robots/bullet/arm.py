@@ -18,6 +18,8 @@ class BulletArm:
             [1/s]; the motors of the engine give way to gravity without it.
     """
 
+    live = False
+
     def __init__(self, world: World, body: Body, stiffness: float) -> None:
         self.world, self.body, self._stiffness = world, body, stiffness
         self.scene = BulletScene(world)
