@@ -17,6 +17,7 @@ from imitation.gaze import VisualSpace
 from imitation.perception import Perception
 from imitation.robot import SECOND, Robot
 from imitation.robots.bodies import guard_of
+from imitation.sequence import TimeCells, TimedSequence
 from imitation.visual_field import VisualField
 from imitation.visuo_motor_map import Learning, VisuoMotorMap
 
@@ -140,3 +141,8 @@ class Bench:
         learning = Learning(**_plain(node, "neurons"))
         body = self.robot.body
         return VisuoMotorMap(self.field, body.lower, body.upper, node["neurons"], learning)
+
+    def empty_sequence(self) -> TimedSequence:
+        """A timed sequence that has learned nothing yet."""
+        node = self.cfg["sequence"]
+        return TimedSequence(TimeCells(**node["cells"]), node["context"], node["match"])

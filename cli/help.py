@@ -40,6 +40,10 @@ EXAMPLES = {
         ("imitate reach map=RUN 'target=[100,60]'", "a place; mind the quotes"),
         ("imitate reach map=RUN 'area=[1,2]'", "the place learned for an area"),
     ],
+    "demo-record": [
+        ("imitate demo-record", "watch a hand take a can, carry it by and let it go"),
+        ("imitate demo-record states.dwell=0.3", "shorter rests are states too"),
+    ],
     "figure": [
         ("imitate figure fig3a", "all seeds; exit code 1 when a claim fails"),
         ("imitate figure fig3a demo=true", "a few seeds, at a glance"),

@@ -71,6 +71,12 @@ def reach(words: Words = None) -> None:
 
 
 @app.command(**STAGE)
+def demo_record(words: Words = None) -> None:
+    """Watch an action once and learn it as a timed sequence of visual states."""
+    raise typer.Exit(launch("demo-record", words or []))
+
+
+@app.command(**STAGE)
 def figure(
     name: Annotated[str, typer.Argument(help=" | ".join(FIGURES), autocompletion=figure_names)],
     words: Words = None,

@@ -195,6 +195,49 @@ class Reach(Common):
     reach: Reaching
 
 
+class TimeCells(Section):
+    """`sequence.cells`."""
+
+    shortest: Positive
+    longest: Positive
+    count: Annotated[int, Within(ge=2, le=1000)]
+    width: Annotated[float, Within(ge=0.01, le=1)]
+
+
+class Sequence(Section):
+    """`sequence`."""
+
+    cells: TimeCells
+    context: Whole
+    match: Annotated[float, Within(gt=0, lt=1)]
+    noise: Annotated[float, Within(ge=0, le=0.1)]  # with more, predictions fail to come
+
+
+class Watching(Section):
+    """`demo`."""
+
+    duration: Positive
+    gone: Positive
+
+
+class VisualStates(Section):
+    """`states`."""
+
+    dwell: Positive
+    still: Positive
+    hysteresis: Share
+    lost: NotNegative
+
+
+class DemoRecord(Common):
+    """`imitate demo-record`."""
+
+    field: Field
+    sequence: Sequence
+    demo: Watching
+    states: VisualStates
+
+
 class Figure(Section):
     """`imitate figure`."""
 
@@ -207,4 +250,9 @@ class Figure(Section):
     demo_seeds: Count
 
 
-COMMANDS: dict[str, type[Section]] = {"learn-map": LearnMap, "reach": Reach, "figure": Figure}
+COMMANDS: dict[str, type[Section]] = {
+    "learn-map": LearnMap,
+    "reach": Reach,
+    "demo-record": DemoRecord,
+    "figure": Figure,
+}

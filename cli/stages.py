@@ -6,8 +6,10 @@ from inspect import signature
 from cli.build import Bench, generator
 from imitation.sample import Sample
 from imitation.stages.babbling import Babbling, Curiosity
+from imitation.stages.demo_record import Watching, demo_record
 from imitation.stages.learn_map import Learner, LearningRun, learn_map
 from imitation.stages.reach import Reaching, Trial, reach
+from imitation.visual_states import Resting, VisualStates
 from imitation.visuo_motor_map import VisuoMotorMap
 
 
@@ -34,3 +36,12 @@ def rules(bench: Bench) -> Reaching:
     settings = bench.cfg["reach"]
     asked = [name for name in signature(Reaching).parameters if name in settings]
     return Reaching(**{name: settings[name] for name in asked})
+
+
+def watching(bench: Bench) -> tuple[VisualStates, Iterator[Sample]]:
+    """The states that will be found in a demonstration, and the steps of watching it."""
+    cfg, states = bench.cfg, VisualStates(Resting(**bench.cfg["states"]))
+    settings, perception = Watching(**cfg["demo"]), bench.perception(bench.field)
+    return states, demo_record(
+        bench.robot, perception, bench.dynamics, states, settings, bench.robot.home
+    )

@@ -54,6 +54,11 @@ def one_attractor(posture: Array) -> Attractors:
     return Attractors(posture[None], np.ones(1), attractors_not_in_map(1))
 
 
+def no_attractor(joints: int) -> Attractors:
+    """None, for an arm of so many joints."""
+    return Attractors(np.zeros((0, joints)), np.zeros(0), attractors_not_in_map(0))
+
+
 def coming_to_rest(
     decision: Decision, posture: Array, acceleration: Array, period: float
 ) -> Decision:

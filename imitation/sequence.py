@@ -97,8 +97,8 @@ class TimedSequence:
         if not cells.shortest <= interval <= cells.longest:
             raise ValueError(
                 f"state {len(self.keys) + 1} comes {interval:.3g} s after the one before; the time "
-                f"cells tell {cells.shortest:g} to {cells.longest:g} s; set sequence.shortest= or "
-                "sequence.longest="
+                f"cells tell {cells.shortest:g} to {cells.longest:g} s; set "
+                "sequence.cells.shortest= or sequence.cells.longest="
             )
         self.transitions[self.keys[-1]] = Transition(state, cells.activity(interval))
 
@@ -148,3 +148,23 @@ class Replay:
         self._key = self.sequence.after(self._key, transition.next)
         self._time, self.index = time, self.index + 1
         return self.index
+
+
+def recalled(sequence: TimedSequence, tick: float) -> list[float]:
+    """The times between the states as the internal loop plays them, from the first on [s].
+
+    Raises:
+        ValueError: It waits for a state in vain.
+    """
+    replay, found, step = Replay(sequence, tick), [0.0], 0
+    replay.start(0, 0.0)
+    while not replay.over:
+        step += 1
+        if replay.predict(step * tick) is not None:
+            found.append(step * tick)
+        elif step * tick - found[-1] > 2 * sequence.cells.longest:
+            raise ValueError(
+                f"state {len(found) + 1} is never predicted; type a lower sequence.match= or a "
+                "larger sequence.cells.width="
+            )
+    return [float(interval) for interval in np.diff(found)]

@@ -1,5 +1,7 @@
 """What becomes a visual state of a demonstration, and what does not."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 
@@ -32,7 +34,7 @@ def action(slower=1.0):
     """The four rests of section IV with straight movements between them."""
     places = [WAITING, TAKING, BY, LETTING_GO]
     parts = [rest(WAITING, 1.5 * slower)]
-    for start, end in zip(places, places[1:], strict=False):
+    for start, end in pairwise(places):
         parts += [move(start, end, 1.2 * slower), rest(end, 1.5 * slower)]
     return parts
 

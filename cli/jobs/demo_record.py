@@ -1,0 +1,72 @@
+"""imitate demo-record: watch an action once, save it as a timed sequence of visual states."""
+
+from collections.abc import Sequence
+from itertools import pairwise
+
+import hydra
+from omegaconf import DictConfig
+
+from cli.build import Bench
+from cli.job import job
+from cli.provenance import program_version
+from cli.run import Outcome, Run
+from cli.stages import watching
+from imitation.recording.action_file import Action, save_action
+from imitation.sequence import recalled
+from imitation.visual_states import VisualState
+
+
+@hydra.main(version_base="1.3", config_path="pkg://conf", config_name="demo_record")
+def main(cfg: DictConfig) -> int:
+    """One job."""
+    return job("demo-record", cfg, watch)
+
+
+def watch(run: Run) -> Outcome:
+    """Watch, save the action, and see that it can be played."""
+    found, samples = watching(run.bench)
+    run.record(samples, run.bench.field)
+    states = found.states
+    if len(states) >= 2:
+        made_by = f"imitate demo-record, version {program_version()}"
+        save_action(run.folder / "action.json", Action(run.bench.field, tuple(states)), made_by)
+    delays = [later.time - state.time for state, later in pairwise(states)]
+    played, complaint = play(run.bench, states)
+    errors = [again - delay for again, delay in zip(played, delays, strict=False)]
+    replay = " ".join(["imitate replay map=MAP action={run}", *run.body_words])
+    return Outcome(
+        metrics={"states": len(states), "delays_s": delays, "clock_error_s": errors},
+        rows=rows(states, delays),
+        next="imitate view {run}" if complaint else replay,
+        complaint=complaint,
+    )
+
+
+def play(bench: Bench, states: Sequence[VisualState]) -> tuple[list[float], str | None]:
+    """The delays as the internal loop plays them, or why it cannot."""
+    if not states:
+        return [], "no hand was seen to rest; does it have the colour of vision=?"
+    if len(states) < 2:
+        return [], (
+            f"the hand rested in area {list(states[0].area)} alone, an action needs 2 states or "
+            "more; let it rest in each for longer than states.dwell"
+        )
+    sequence = bench.empty_sequence()
+    try:
+        for state in states:
+            sequence.learn(state.area, state.time)
+        return recalled(sequence, bench.robot.period), None
+    except ValueError as error:
+        return [], str(error)
+
+
+def rows(states: Sequence[VisualState], delays: Sequence[float]) -> list[tuple[str, str]]:
+    """What is printed of the states."""
+    told = [("visual states", str(len(states)))]
+    for number, (state, delay) in enumerate(zip(states, [0.0, *delays], strict=True), start=1):
+        x, y = state.place
+        after = f", {delay:.2f} s after" if number > 1 else ""
+        told.append(
+            (f"state {number}", f"area {list(state.area)}, at ({x:.1f}, {y:.1f}) px{after}")
+        )
+    return told
