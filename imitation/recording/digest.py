@@ -5,7 +5,6 @@ import struct
 from collections import defaultdict
 
 OVERALL = "all"  # key of the digest over the digests of all topics
-LONG = 2048  # messages from here on are hashed at once, so that none is kept [bytes]
 _ENTRY = struct.Struct("<QQ")  # log_time [ns], length of the data [bytes]
 
 
@@ -21,10 +20,8 @@ class Digest:
         self._pending: defaultdict[str, list[bytes]] = defaultdict(list)
 
     def add(self, topic: str, time_ns: int, data: bytes) -> None:
-        """One more message."""
+        """One more message; kept until the values are asked for."""
         self._pending[topic] += (_ENTRY.pack(time_ns, len(data)), data)
-        if len(data) >= LONG:
-            self._hash(topic)
 
     def values(self) -> dict[str, str]:
         """Hexadecimal digest of each topic, sorted, and `all` over the lines `digest  topic`."""
@@ -37,6 +34,6 @@ class Digest:
     def _hash(self, topic: str) -> None:
         if topic not in self._hashes:
             self._hashes[topic] = hashlib.sha256(topic.encode() + b"\0")
-        # In one piece: long pieces are hashed without holding the GIL.
+        # In one piece, so that the thread gives up the GIL, and waits for it again, but once.
         self._hashes[topic].update(b"".join(self._pending[topic]))
         self._pending[topic].clear()
