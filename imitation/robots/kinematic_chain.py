@@ -114,7 +114,10 @@ class KinematicChain:
                 reached.add(link)
                 link = by_child[link].parent
             self._order += reversed(path)
-        self._points = [(link, np.array((*point, 1.0))[:, None]) for link, point in points]
+        number = {joint.child: place for place, joint in enumerate(self._order, start=1)}
+        self._parents = [number.get(joint.parent, 0) for joint in self._order]  # 0: the root
+        self._carriers = [number.get(link, 0) for link, _ in points]
+        self._points = np.array([(*point, 1.0) for _, point in points]).reshape(-1, 1, 4, 1)
         self._split(joint_names)
 
     def _split(self, joint_names: tuple[str, ...]) -> None:
@@ -133,12 +136,13 @@ class KinematicChain:
         """The points at `posture` (..., n_joints) [rad], (..., n_points, 3) [m]."""
         angles = posture.reshape(-1, posture.shape[-1]).T[self._slots, :, None, None]
         turned = self._by_sine * np.sin(angles) + self._by_versine * (1 - np.cos(angles))
-        root = np.broadcast_to(self._base, (angles.shape[1], 4, 4))
-        frames: dict[str, Array] = {}
-        for joint, step in zip(self._order, self._fixed + turned, strict=True):
-            frames[joint.child] = frames.get(joint.parent, root) @ step
-        placed = [frames.get(link, root) @ point for link, point in self._points]
-        places = np.stack(placed, axis=1)[..., :3, 0]
+        links = np.empty((len(self._order) + 1, angles.shape[1], 4, 4))
+        links[0] = self._base
+        for number, (parent, step) in enumerate(
+            zip(self._parents, self._fixed + turned, strict=True), start=1
+        ):
+            np.matmul(links[parent], step, out=links[number])
+        places = (links[self._carriers] @ self._points)[..., :3, 0].swapaxes(0, 1)
         return np.asarray(places.reshape((*posture.shape[:-1], len(self._points), 3)))
 
 
