@@ -103,6 +103,26 @@ def view(
     raise typer.Exit(attempt(lambda: view(run, screenshot)))
 
 
+@app.command()
+def emulate(
+    device: Annotated[str, typer.Argument(help="katana | ssc32")],
+    model: Annotated[str, typer.Option(help="Of the Katana: 300, 400 or 450.")] = "400",
+    port: Annotated[int | None, typer.Option(help="TCP port on 127.0.0.1; 0: a free one.")] = None,
+    pty: Annotated[Path | None, typer.Option(help="Serial port to make.")] = None,
+    fault: Annotated[
+        list[str] | None,
+        typer.Option(help="NAME[=WHICH][@START[-END]][xTIMES], in seconds; may be repeated."),
+    ] = None,
+    speed: Annotated[float, typer.Option(help="Times faster than the real device.")] = 1.0,
+) -> None:
+    """Be a device that speaks its wire protocol, to try drivers without hardware."""
+    from cli.emulate import Asked, emulate
+    from cli.job import attempt
+
+    asked = Asked(model, port, pty, fault or [], speed)
+    raise typer.Exit(attempt(lambda: emulate(device, asked)))
+
+
 def main() -> Any:
     """Run the program."""
     return app()

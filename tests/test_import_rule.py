@@ -23,7 +23,7 @@ AT_HOME = {
     "rosbags": "imitation.recording.messages",
     "rerun": "imitation.recording.rerun_view",
     "matplotlib": "imitation.analysis.",
-    "serial": "imitation.robots.",
+    "serial": "imitation.robots.serial_line",
 }
 # What each layer of our own may import; a layer may always import itself.
 CORE = {"core"}

@@ -1,0 +1,54 @@
+"""imitate emulate: a device on this computer that speaks its wire protocol."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from cli.errors import DONE, UserError, no_such
+from imitation.robots import ssc32_emulator as ssc32
+from imitation.robots.faults import Faults, read_fault
+from imitation.robots.katana.emulated_arm import EmulatedArm
+from imitation.robots.katana.emulator import FAULTS, KatanaEmulator
+from imitation.robots.katana.models import MODELS
+from imitation.robots.serving import Device, Server
+
+DEVICES = ("katana", "ssc32")
+
+
+@dataclass(frozen=True)
+class Asked:
+    """What was typed after the device's name."""
+
+    model: str
+    port: int | None
+    pty: Path | None
+    faults: Sequence[str]
+    speed: float
+
+
+def emulate(device: str, asked: Asked) -> int:
+    """Serve a device until interrupted."""
+    server = Server(_device(device, asked))
+    if (asked.port is None) == (asked.pty is None):
+        raise UserError("give either --port NUMBER (TCP on 127.0.0.1) or --pty PATH (serial)")
+    if asked.port is not None:
+        server.listen(asked.port)
+    elif asked.pty is not None:
+        server.open_pty(asked.pty)
+    print(f"{device} at {server.where}; Ctrl-C ends it", flush=True)
+    server.serve()
+    return DONE
+
+
+def _device(name: str, asked: Asked) -> Device:
+    if name not in DEVICES:
+        raise UserError(no_such("device", name, DEVICES))
+    if not asked.speed > 0:
+        raise UserError(f"--speed is a factor above 0, not {asked.speed:g}")
+    if asked.model not in MODELS:
+        raise UserError(no_such("model", asked.model, list(MODELS)))
+    known = FAULTS if name == "katana" else ssc32.FAULTS
+    faults = Faults([read_fault(one, known) for one in asked.faults])
+    if name == "ssc32":
+        return ssc32.Ssc32Emulator(faults, asked.speed)
+    return KatanaEmulator(EmulatedArm(MODELS[asked.model]), faults, asked.speed)

@@ -1,0 +1,57 @@
+"""What goes wrong with an emulated device, and when."""
+
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+
+WRITTEN = re.compile(
+    r"(?P<name>\w+)(=(?P<which>\d+))?(@(?P<start>\d+(\.\d+)?)(-(?P<end>\d+(\.\d+)?))?)?(x(?P<times>\d+))?"
+)
+
+
+@dataclass(frozen=True)
+class Fault:
+    """Something that goes wrong for a while."""
+
+    name: str
+    which: int  # motor, servo or sensor; 0: the device as a whole
+    start: float  # since the device was first spoken to [s]
+    end: float
+    times: float  # how often it strikes
+
+    def lasts(self, time: float) -> bool:
+        """Whether it goes wrong at `time` [s]."""
+        return self.start <= time < self.end
+
+
+def read_fault(written: str, known: Mapping[str, str]) -> Fault:
+    """A fault as it is typed: NAME[=WHICH][@START[-END]][xTIMES], such as late@1-2.5x3."""
+    match = WRITTEN.fullmatch(written)
+    if not match or match["name"] not in known:
+        raise ValueError(
+            f"there is no fault {written}; type NAME[=WHICH][@START[-END]][xTIMES] (seconds), "
+            f"with a NAME of {', '.join(known)}"
+        )
+    start, end = float(match["start"] or 0), float(match["end"] or "inf")
+    times = float(match["times"] or "inf")
+    return Fault(match["name"], int(match["which"] or 0), start, end, times)
+
+
+@dataclass(frozen=True)
+class Faults:
+    """All that goes wrong with one device."""
+
+    planned: Sequence[Fault] = ()
+    _struck: dict[Fault, int] = field(default_factory=dict)
+
+    def at(self, time: float, name: str) -> Fault | None:
+        """The fault of that name that lasts at `time` [s]."""
+        return next((one for one in self.planned if one.name == name and one.lasts(time)), None)
+
+    def strikes(self, time: float, name: str) -> bool:
+        """Whether that fault spoils what is sent at `time` [s]; counts."""
+        fault = self.at(time, name)
+        if fault is None or self._struck.get(fault, 0) >= fault.times:
+            return False
+        self._struck[fault] = self._struck.get(fault, 0) + 1
+        return True

@@ -1,0 +1,61 @@
+"""Emulated devices as people start them."""
+
+import signal
+import socket
+import subprocess
+import sys
+
+import pytest
+
+from imitation.robots.serial_line import SerialLine
+
+
+def started(*words: str) -> subprocess.Popen:
+    call = [sys.executable, "-c", "from cli.main import main; main()", "emulate", *words]
+    return subprocess.Popen(call, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+
+
+def ended(process: subprocess.Popen) -> int:
+    process.send_signal(signal.SIGTERM)
+    return process.wait(timeout=20)
+
+
+def test_a_katana_answers_on_tcp_until_it_is_ended():
+    process = started("katana", "--model", "450", "--port", "0")
+    where = process.stdout.readline().split()[2].rstrip(";")
+    host, port = where.split(":")
+    with socket.create_connection((host, int(port)), 5) as client:
+        client.sendall(bytes.fromhex("011801423180"))
+        assert client.recv(100)[:2] == b"b\x02"
+    assert ended(process) == 130
+
+
+def test_an_ssc32_answers_on_a_serial_port_that_goes_with_it(tmp_path):
+    process = started("ssc32", "--pty", str(tmp_path / "neck"), "--speed", "10")
+    assert str(tmp_path / "neck") in process.stdout.readline()
+    line = SerialLine(str(tmp_path / "neck"), 115200, 1.0)
+    line.send(b"ver\r")
+    assert line.receive(15, 2.0) == b"SSC32-V2.50USB\r"
+    line.close()
+    ended(process)
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        (["toaster", "--port", "0"], "no device toaster"),
+        (["katana", "--model", "500", "--port", "0"], "no model 500"),
+        (["katana"], "either --port"),
+        (["katana", "--port", "0", "--pty", "here"], "either --port"),
+        (["katana", "--port", "0", "--fault", "fire"], "no fault fire"),
+        (["katana", "--port", "0", "--speed", "0"], "above 0"),
+        (["ssc32", "--pty", "no/where"], "no folder no"),
+        (["katana", "--port", "99999"], "cannot be used"),
+    ],
+)
+def test_what_cannot_be_emulated_is_told_in_one_line(imitate, words, told):
+    result = imitate("emulate", *words)
+    assert result.exit_code == 2
+    assert told in result.stderr
+    assert result.stderr.count("\n") == 1
