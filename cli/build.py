@@ -2,7 +2,7 @@
 
 import zlib
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from inspect import signature
 from typing import Any
@@ -17,11 +17,14 @@ from imitation.gaze import VisualSpace
 from imitation.perception import Perception
 from imitation.robot import SECOND, Robot
 from imitation.robots.bodies import guard_of
+from imitation.robots.demonstrators import Hand, HandOverTable
 from imitation.sequence import TimeCells, TimedSequence
 from imitation.visual_field import VisualField
 from imitation.visuo_motor_map import Learning, VisuoMotorMap
 
 Config = Mapping[str, Any]
+
+DEMONSTRATOR = ("name", "hand", "hands", "height", "raise")  # keys that all gestures share
 
 
 def generator(seed: int, purpose: str) -> np.random.Generator:
@@ -65,7 +68,13 @@ class Bench:
 
     @cached_property
     def space(self) -> VisualSpace:
-        """The visual space of the body's camera, looking along its own gaze."""
+        """The visual space of this run: that of learning, its reference gaze turned by `shift`."""
+        pan, tilt = np.add(self.learning_space.reference, self.cfg.get("shift", (0.0, 0.0)))
+        return replace(self.learning_space, reference=(float(pan), float(tilt)))
+
+    @cached_property
+    def learning_space(self) -> VisualSpace:
+        """The visual space of the body's camera, looking along its own gaze, as in learning."""
         camera = self.cfg["camera"]
         width, height = camera["size"]
         pan, tilt = camera["gaze"]
@@ -83,15 +92,33 @@ class Bench:
         arm = make_offered(node["arm"], {"period": self.period_ns / SECOND})
         offered = {
             "arm": arm,
-            "space": self.space,
+            "space": self.learning_space,
             "reference": self.space.reference,
             "gaze": self.cfg["camera"]["gaze"],
             "rng": generator(self.cfg["seed"], "camera"),
+            "demonstrator": self.demonstrator,
         }
         camera = make_offered(_plain(self.cfg["camera"], "size", "focal_px", "gaze"), offered)
         shared = {"urdf": node["arm"]["urdf"], "base": node["arm"]["base"]}
         guard = guard_of(arm.body, **shared, **node["guard"])
         return Robot(arm, camera, guard, self.guided.mean(axis=0), self.period_ns)
+
+    @cached_property
+    def demonstrator(self) -> HandOverTable | None:
+        """Who moves another hand before the simulated camera; None: nobody."""
+        node, camera = self.cfg.get("demonstrator"), self.cfg["camera"]
+        simulated = "demonstrator" in signature(get_method(camera["_target_"])).parameters
+        if node is None or not simulated:  # a real camera sees who is there
+            return None
+        gesture = make(_plain(node, *DEMONSTRATOR))
+        if gesture is None:
+            return None
+        if node["hand"] not in node["hands"]:
+            known = ", ".join(node["hands"])
+            raise ValueError(f"demonstrator.hand={node['hand']} is no hand; type one of {known}")
+        hand = Hand(**node["hands"][node["hand"]])
+        eye, height, higher = np.array(camera["eye"]), node["height"], node["raise"]
+        return HandOverTable(hand, gesture, self.space, eye, height, higher)
 
     @property
     def period_ns(self) -> int:

@@ -16,7 +16,16 @@ from cli.ranges import RANGES
 from cli.schema import COMMANDS, Target
 
 # Given by cli/build.py when asked for.
-SUPPLIED = {"arm", "space", "reference", "gaze", "rng", "acceleration", "period"}
+SUPPLIED = {
+    "arm",
+    "space",
+    "reference",
+    "gaze",
+    "rng",
+    "demonstrator",
+    "acceleration",
+    "period",
+}
 
 PYDANTIC = {
     "Input should be ": "",

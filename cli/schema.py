@@ -45,6 +45,23 @@ class Camera(Target):
     gaze: Pair
 
 
+class HandLook(Section):
+    """One of `demonstrator.hands`."""
+
+    radius: Annotated[float, Within(gt=0, le=1)]
+    colour: Colour
+
+
+class Demonstrator(Target):
+    """`demonstrator`: what all share, and what the gesture itself asks for."""
+
+    name: str
+    hand: str
+    hands: dict[str, HandLook]
+    height: float
+    raised: float = Within(alias="raise")
+
+
 class Controller(Target):
     """`controller`."""
 
@@ -94,6 +111,13 @@ class Head(Section):
     focal_px: Positive
     eye: Triple
     gaze: Pair
+    aside: Pair
+
+
+class Holding(Section):
+    """`robot.holding`."""
+
+    height: float
 
 
 class Robot(Section):
@@ -104,6 +128,7 @@ class Robot(Section):
     head: Head
     guided: Annotated[list[Posture], Within(min_length=2)]
     guard: Guard
+    holding: Holding
 
 
 class Dynamics(Section):
@@ -125,6 +150,7 @@ class Common(Section):
     robot: Robot
     vision: Target
     dynamics: Dynamics
+    demonstrator: Demonstrator
 
 
 class Clusters(Section):

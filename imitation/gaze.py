@@ -58,3 +58,12 @@ class VisualSpace:
         right, down, forward = self._turn @ (position - eye)
         depth = forward if forward > 0 else np.nan
         return np.array((right / depth, down / depth)) * self.focal + self.centre
+
+    def unproject(self, place: Array, eye: Array, height: float) -> Array:
+        """The world point (3,) [m] at `height` [m] that `eye` [m] sees at `place` (2,) [px].
+
+        A place whose ray does not lead to that height becomes nan.
+        """
+        ray = self._turn.T @ np.append((place - np.array(self.centre)) / self.focal, 1.0)
+        along = (height - eye[2]) / ray[2] if ray[2] else -1.0
+        return np.asarray(eye + ray * (along if along > 0 else np.nan))

@@ -118,3 +118,21 @@ def test_the_rendered_hand_at_rest_is_seen_in_one_place_while_the_neck_moves(sce
     truth = SPACE.project(scene.world.mark_position(), EYE)
     place = seen_mark(scene, np.add(SPACE.reference, turn))
     assert np.linalg.norm(place - truth) < 1.0
+
+
+@given(pixels, st.floats(0.0, 0.5))
+def test_a_place_put_into_the_world_at_some_height_is_seen_where_it_was(pixel, height):
+    there = SPACE.unproject(pixel, EYE, height)
+    assert there[2] == pytest.approx(height)
+    np.testing.assert_allclose(SPACE.project(there, EYE), pixel, atol=1e-9)
+
+
+@given(st.tuples(st.floats(0.2, 0.5), st.floats(-0.1, 0.3), st.floats(0.0, 0.2)))
+def test_a_point_of_the_world_that_is_seen_is_found_again_at_its_height(position):
+    position = np.array(position)
+    found = SPACE.unproject(SPACE.project(position, EYE), EYE, position[2])
+    np.testing.assert_allclose(found, position, atol=1e-9)
+
+
+def test_no_point_higher_than_the_eye_is_seen_by_looking_down():
+    assert np.isnan(SPACE.unproject(np.array([80.0, 60.0]), EYE, EYE[2] + 0.1)).all()

@@ -51,7 +51,7 @@ def guide_by_hand(run: Run) -> None:
 
 def learned_by(bench: Bench, learner: Learner) -> LearnedMap:
     """The map, with the border of where the hand was seen within reach."""
-    told = fingerprint(bench.robot.body, bench.field, bench.space)
+    told = fingerprint(bench.robot.body, bench.field, bench.learning_space)
     return LearnedMap(learner.learned, _outline(learner), told)
 
 

@@ -61,7 +61,7 @@ def the_map(run: Run) -> LearnedMap:
     stored = load_map(named)
     run.uses("map", named / "map.npz" if named.is_dir() else named)
     bench, field = run.bench, stored.map.field
-    present = fingerprint(bench.robot.body, field, bench.space)
+    present = fingerprint(bench.robot.body, field, bench.learning_space)
     if found := differences(stored.fingerprint, present):
         raise UserError(f"map={named} is refused: {'; '.join(found)}")
     asked = run.cfg.get("field")

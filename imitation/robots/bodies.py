@@ -10,7 +10,8 @@ from imitation.guard import Guard
 from imitation.robot import Body
 from imitation.robots.bullet.arm import BulletArm
 from imitation.robots.bullet.world import Mark, Table, World, find_urdf
-from imitation.robots.ideal import IdealArm
+from imitation.robots.demonstrators import Demonstrator
+from imitation.robots.ideal import IdealArm, pixel
 from imitation.robots.kinematic_chain import KinematicChain, TableAndBase
 from imitation.robots.simulated_camera import Scene, SimulatedCamera
 
@@ -101,15 +102,15 @@ def ideal_arm(
     """A kinematic arm with the geometry of a URDF."""
     point = (str(mark["link"]), np.asarray(mark["offset"], dtype=float))
     chain = KinematicChain(find_urdf(urdf), tuple(joints), [point], np.asarray(base, dtype=float))
-    red, green, blue = (round(255 * part) for part in mark["colour"][:3])
     body = body_of(name, urdf, joints, base, speed, acceleration)
-    return IdealArm(body, chain, float(mark["radius"]), (red, green, blue))
+    return IdealArm(body, chain, float(mark["radius"]), pixel(mark["colour"]))
 
 
 def head_camera(
     arm: BulletArm | IdealArm,
     space: VisualSpace,
     rng: np.random.Generator,
+    demonstrator: Demonstrator | None,
     eye: Numbers,
     gaze: Numbers,
     delay_frames: int,
@@ -118,7 +119,7 @@ def head_camera(
     """The simulated camera on its neck, looking at the world of `arm`."""
     scene: Scene = arm.scene
     return SimulatedCamera(
-        scene, space, np.asarray(eye), np.asarray(gaze), delay_frames, noise_px, rng
+        scene, space, np.asarray(eye), np.asarray(gaze), delay_frames, noise_px, rng, demonstrator
     )
 
 

@@ -1,6 +1,6 @@
 """A kinematic arm without an engine: it is where its commands lead, at once and exactly."""
 
-from dataclasses import dataclass
+from collections.abc import Sequence
 
 import cv2
 import numpy as np
@@ -8,9 +8,11 @@ import numpy as np
 from imitation.arrays import Array, Image
 from imitation.gaze import VisualSpace, rotation
 from imitation.robot import Body, JointReading
+from imitation.robots.demonstrators import Hand, Shown
 from imitation.robots.kinematic_chain import KinematicChain
 
-TABLE = (158, 132, 102)  # colour of all that is not the hand, RGB
+TABLE = (158, 153, 140)  # colour of all that is not a hand, nor like skin, RGB
+Pixel = tuple[int, int, int]  # red, green, blue [0..255]
 FINER = 8  # the hand is drawn this much finer, then shrunk, so that its centre is exact
 
 
@@ -31,7 +33,7 @@ class IdealArm:
         body: Body,
         chain: KinematicChain,
         mark_radius: float,
-        mark_colour: tuple[int, int, int],
+        mark_colour: Pixel,
     ) -> None:
         self.body, self._chain = body, chain
         self.scene = MarkOverTable(self, mark_radius, mark_colour)
@@ -64,34 +66,54 @@ class IdealArm:
         """Nothing to release."""
 
 
-@dataclass(frozen=True)
 class MarkOverTable:
-    """The mark of an ideal arm as a disc before a plain table."""
+    """The mark of an ideal arm as a disc before a plain table; another's hand is one more.
 
-    arm: IdealArm
-    radius: float  # [m]
-    colour: tuple[int, int, int]
+    Args:
+        arm: Whose mark it is.
+        radius: Of the mark [m].
+        colour: Red, green, blue [0..255].
+    """
+
+    def __init__(self, arm: IdealArm, radius: float, colour: Pixel) -> None:
+        self._arm, self._radius, self._colour = arm, radius, colour
+        self._other: list[tuple[Array, float, Pixel]] = []
+
+    def show(self, shown: Shown, hand: Hand) -> None:
+        """Have a demonstrator's hand before the table, or none."""
+        self._other = [] if shown.mark is None else [(shown.mark, hand.radius, pixel(hand.colour))]
 
     def photograph(self, space: VisualSpace, eye: Array, gaze: Array) -> Image:
         """The picture from `eye` [m] along `gaze` [rad], RGB."""
         width, height = space.size
         picture = np.full((height, width, 3), TABLE, dtype=np.uint8)
-        right, down, depth = rotation(gaze).T @ (self.arm.mark_position() - eye)
-        if depth <= 0:
-            return picture
-        centre = np.array((right, down)) / depth * space.focal + space.centre
-        radius = self.radius / depth * space.focal
-        # Only the patch around the mark is drawn finely, then shrunk into the picture.
-        low = np.maximum(np.floor(centre - radius - 1), 0).astype(int)
-        high = np.minimum(np.ceil(centre + radius + 1), (width, height)).astype(int)
-        if np.any(low >= high):
-            return picture
-        across, along = (high - low) * FINER
-        patch = np.full((along, across, 3), TABLE, dtype=np.uint8)
-        # Pixel centres lie at +0.5; OpenCV draws around pixel indices, here in 1/16 px.
-        at = np.round(((centre - low) * FINER - 0.5) * 16).astype(int)
-        size = round(radius * FINER * 16)
-        cv2.circle(patch, (int(at[0]), int(at[1])), size, self.colour, -1, shift=4)
-        small = cv2.resize(patch, (across // FINER, along // FINER), interpolation=cv2.INTER_AREA)
-        picture[low[1] : high[1], low[0] : high[0]] = small
+        marks = [(self._arm.mark_position(), self._radius, self._colour), *self._other]
+        turn = rotation(gaze).T
+        seen = [(turn @ (position - eye), radius, colour) for position, radius, colour in marks]
+        for (right, down, depth), radius, colour in sorted(seen, key=lambda mark: -mark[0][2]):
+            if depth > 0:
+                centre = np.array((right, down)) / depth * space.focal + space.centre
+                draw_disc(picture, centre, radius / depth * space.focal, colour)
         return picture
+
+
+def pixel(colour: Sequence[float]) -> Pixel:
+    """A colour's red, green, blue [0..1] as bytes."""
+    red, green, blue = (round(255 * part) for part in colour[:3])
+    return red, green, blue
+
+
+def draw_disc(picture: Image, centre: Array, radius: float, colour: Pixel) -> None:
+    """Draw a disc at `centre` (2,) with `radius`, both [px], into `picture`."""
+    # Only the patch around it is drawn finely, then shrunk into the picture.
+    low = np.maximum(np.floor(centre - radius - 1), 0).astype(int)
+    high = np.minimum(np.ceil(centre + radius + 1), picture.shape[1::-1]).astype(int)
+    if np.any(low >= high):
+        return
+    here = np.s_[low[1] : high[1], low[0] : high[0]]
+    patch = picture[here].repeat(FINER, axis=0).repeat(FINER, axis=1)
+    # Pixel centres lie at +0.5; OpenCV draws around pixel indices, here in 1/16 px.
+    at = np.round(((centre - low) * FINER - 0.5) * 16).astype(int)
+    cv2.circle(patch, (int(at[0]), int(at[1])), round(radius * FINER * 16), colour, -1, shift=4)
+    across, along = high - low
+    picture[here] = cv2.resize(patch, (across, along), interpolation=cv2.INTER_AREA)

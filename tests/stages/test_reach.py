@@ -128,7 +128,7 @@ def test_nearest_comes_to_rest_at_the_nearest_learned_posture_without_swinging(l
 
 def test_noise_pulls_never_and_moves_all_the_same(ideal_lesson, learned):
     (trial,) = random_trials(ideal_lesson, 1)
-    samples = reached(learned, [trial], "controller=noise", "reach.limit=4")
+    samples = reached(learned, [trial], "controller=noise", "reach.limit=2")
     assert {sample.decision.gain for sample in samples} == {0.0}
     assert all(sample.decision.noise.any() for sample in samples)
     assert np.ptp([sample.seen.posture for sample in samples], axis=0).max() > 0.005

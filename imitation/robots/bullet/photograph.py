@@ -8,6 +8,7 @@ import numpy as np
 from imitation.arrays import Array, Image
 from imitation.gaze import VisualSpace, rotation
 from imitation.robots.bullet.world import World
+from imitation.robots.demonstrators import Hand, Shown
 
 # TinyRenderer draws what lies at continuous (u, v) into the pixel whose index is (u, v - 1),
 # while our pixel centres are at +0.5: the picture is moved by the difference.
@@ -52,3 +53,7 @@ class BulletScene:
         """The picture from `eye` [m] along `gaze` [rad], RGB."""
         view = _view_from(*eye.tolist(), *gaze.tolist())
         return self.world.render(view, projection_matrix(space), space.size)
+
+    def show(self, shown: Shown, hand: Hand) -> None:
+        """Have a demonstrator's hand in the world, or none."""
+        self.world.show_other(shown.mark, hand.radius, hand.colour)

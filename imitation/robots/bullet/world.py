@@ -1,6 +1,6 @@
 """A PyBullet world: table, arm and what stands before it. The one module that knows the engine."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -124,7 +124,9 @@ class World:
         for joint, (closed, opened) in zip(self._fingers, self._finger_range, strict=True):
             angle = closed + opening * (opened - closed)
             pybullet.resetJointState(self._arm, joint, angle, **call)
-        self._add_mark(call)
+        self._mark = self._sphere(self.mark.radius, self.mark.colour)
+        self.carry_mark()
+        self._other: int | None = None
         self.grip(opening)
 
     def drive(self, velocity: Array) -> None:
@@ -254,17 +256,33 @@ class World:
             table, -1, lateralFriction=self.table.friction, restitution=0.0, **call
         )
 
-    def _add_mark(self, call: dict[str, Any]) -> None:
-        shape = pybullet.createVisualShape(
-            pybullet.GEOM_SPHERE, radius=self.mark.radius, rgbaColor=self.mark.colour, **call
-        )
-        self._mark = pybullet.createMultiBody(0.0, -1, shape, (0, 0, 0), **call)
-        self.carry_mark()
-
     def carry_mark(self) -> Array:
         """Put the mark where the hand is; returns its centre, (3,) [m]."""
         position = self.mark_position()
-        pybullet.resetBasePositionAndOrientation(
-            self._mark, position.tolist(), (0, 0, 0, 1), physicsClientId=self._client
-        )
+        self._put(self._mark, position)
         return position
+
+    def show_other(self, position: Array | None, radius: float, colour: Sequence[float]) -> None:
+        """Put the mark on another's hand at `position` (3,) [m]; None: it is not in sight."""
+        if position is None:
+            if self._other is not None:
+                pybullet.removeBody(self._other, physicsClientId=self._client)
+            self._other = None
+            return
+        if self._other is None:
+            self._other = self._sphere(radius, colour)
+        self._put(self._other, position)
+
+    def _sphere(self, radius: float, colour: Sequence[float]) -> int:
+        """A new sphere that is only seen, never touched."""
+        call = {"physicsClientId": self._client}
+        shape = pybullet.createVisualShape(
+            pybullet.GEOM_SPHERE, radius=radius, rgbaColor=colour, **call
+        )
+        body: int = pybullet.createMultiBody(0.0, -1, shape, (0, 0, 0), **call)
+        return body
+
+    def _put(self, body: int, position: Array) -> None:
+        pybullet.resetBasePositionAndOrientation(
+            body, position.tolist(), (0, 0, 0, 1), physicsClientId=self._client
+        )

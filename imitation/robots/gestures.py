@@ -1,0 +1,173 @@
+"""Gestures: the way of a demonstrator's hand through visual space over time."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+
+from imitation.arrays import Array
+
+Numbers = Sequence[float]
+
+
+class Gesture(Protocol):
+    """Where a hand is shown, and when it carries something."""
+
+    def place(self, time: float) -> Array | None:
+        """Where it is `time` seconds after the episode began, (2,) [px]; None: out of sight."""
+
+    def carries(self, time: float) -> bool:
+        """Whether it carries something then."""
+
+
+@dataclass(frozen=True)
+class Laps:
+    """The same figure again and again.
+
+    Args:
+        figure: Place (2,) [px] after a share [0..1] of a lap.
+        period: A lap lasts this long [s].
+        laps: After so many the hand stays where it is; None: it never ends.
+        start: The hand is shown at rest this long before it begins [s].
+    """
+
+    figure: Callable[[float], Array]
+    period: float
+    laps: int | None
+    start: float
+
+    def place(self, time: float) -> Array | None:
+        """Where it is, (2,) [px]."""
+        done = max(time - self.start, 0.0) / self.period
+        return self.figure(1.0 if self.laps is not None and done >= self.laps else done % 1.0)
+
+    def carries(self, time: float) -> bool:
+        """It never does."""
+        return False
+
+
+@dataclass(frozen=True)
+class Waypoints:
+    """From one place to the next, each left and entered smoothly; the same place twice is a rest.
+
+    Args:
+        times: When the hand is at each place, ascending, (n,) [s]; before the first it is not seen.
+        places: (n, 2) [px].
+        stays: Whether it is still seen after the last.
+        carried: From when to when it carries something [s].
+    """
+
+    times: Array
+    places: Array
+    stays: bool
+    carried: tuple[float, float] = (np.inf, np.inf)
+
+    def place(self, time: float) -> Array | None:
+        """Where it is, (2,) [px]; None: out of sight."""
+        if time < self.times[0] or (time > self.times[-1] and not self.stays):
+            return None
+        after = int(np.searchsorted(self.times, time, side="right"))
+        if after == len(self.times):
+            return np.asarray(self.places[-1])
+        (left, reached), (come_from, go_to) = (
+            pair[after - 1 : after + 1] for pair in (self.times, self.places)
+        )
+        return np.asarray(come_from + eased((time - left) / (reached - left)) * (go_to - come_from))
+
+    def carries(self, time: float) -> bool:
+        """Whether it carries something then."""
+        return self.carried[0] <= time < self.carried[1]
+
+
+def eased(share: float) -> float:
+    """How far a movement is after a `share` of its time, both [0..1]: at rest at both ends."""
+    return float(1 - np.cos(np.pi * share)) / 2
+
+
+def line(centre: Numbers, size: Numbers, period: float, laps: int | None, start: float) -> Gesture:
+    """From one corner of a box to the opposite one and back."""
+    return Laps(_round_trip(_corners(centre, size)[::2]), period, laps, start)
+
+
+def square(
+    centre: Numbers, size: Numbers, period: float, laps: int | None, start: float
+) -> Gesture:
+    """Round a box, slowly at its corners, from the top left one to the top right one."""
+    return Laps(_round_trip(_corners(centre, size)), period, laps, start)
+
+
+def circle(
+    centre: Numbers, size: Numbers, period: float, laps: int | None, start: float
+) -> Gesture:
+    """Round an ellipse, from its left end upwards."""
+
+    def figure(share: float) -> Array:
+        angle = 2 * np.pi * share
+        return np.asarray(centre - np.array(size) / 2 * (np.cos(angle), np.sin(angle)))
+
+    return Laps(figure, period, laps, start)
+
+
+def figure_eight(
+    centre: Numbers, size: Numbers, period: float, laps: int | None, start: float
+) -> Gesture:
+    """A lying eight that fills a box, from its middle to the upper right."""
+
+    def figure(share: float) -> Array:
+        angle = 2 * np.pi * share
+        return np.asarray(centre + np.array(size) / 2 * (np.sin(angle), -np.sin(2 * angle)))
+
+    return Laps(figure, period, laps, start)
+
+
+def waypoints(waypoints: Sequence[Numbers], stays: bool) -> Gesture:
+    """Through `waypoints`, each a time [s] and a place x, y [px]."""
+    table = np.array(waypoints, dtype=float)
+    if np.any(np.diff(table[:, 0]) <= 0):
+        raise ValueError(
+            f"demonstrator.waypoints: times must ascend, got {table[:, 0].tolist()}; sort them"
+        )
+    return Waypoints(table[:, 0], table[:, 1:], stays)
+
+
+def pick_and_place(
+    places: Sequence[Numbers], rests: Numbers, travel: float, leaves_to: Numbers
+) -> Gesture:
+    """Wait, take the object, carry it by a place, let it go, leave.
+
+    Args:
+        places: The four places, (4, 2) [px].
+        rests: How long the hand rests at each of them, (4,) [s].
+        travel: From one to the next, and away [s].
+        leaves_to: Where it goes at the end, to be seen no more, (2,) [px].
+    """
+    times = [0.0]
+    for rest in rests:
+        times += [times[-1] + rest, times[-1] + rest + travel]
+    held = np.repeat(np.array(places, dtype=float), 2, axis=0)
+    takes, lets_go = times[2], times[6]
+    way = np.vstack((held, leaves_to))
+    return Waypoints(np.array(times), way, stays=False, carried=(takes, lets_go))
+
+
+def trigger(place: Numbers, at: float, stay: float | None) -> Gesture:
+    """A hand that appears and is at rest; after `stay` seconds it is gone (None: it stays)."""
+    times = np.array((at, at + (1.0 if stay is None else stay)))
+    return Waypoints(times, np.array((place, place), dtype=float), stays=stay is None)
+
+
+def nobody() -> None:
+    """No demonstrator."""
+
+
+def _corners(centre: Numbers, size: Numbers) -> Array:
+    """Corners of a box, (4, 2) [px]: top left, top right, bottom right, bottom left."""
+    signs = np.array(((-1, -1), (1, -1), (1, 1), (-1, 1)))
+    return np.asarray(centre + signs * np.array(size) / 2)
+
+
+def _round_trip(corners: Array) -> Callable[[float], Array]:
+    """The figure that visits `corners` in turn, with a short rest at each."""
+    way = Waypoints(np.linspace(0, 1, len(corners) + 1), np.vstack((corners, corners[:1])), True)
+    return lambda share: np.asarray(way.place(share))
