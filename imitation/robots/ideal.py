@@ -1,6 +1,7 @@
 """A kinematic arm without an engine: it is where its commands lead, at once and exactly."""
 
 from collections.abc import Sequence
+from dataclasses import dataclass, field
 
 import cv2
 import numpy as np
@@ -66,28 +67,26 @@ class IdealArm:
         """Nothing to release."""
 
 
+@dataclass
 class MarkOverTable:
-    """The mark of an ideal arm as a disc before a plain table; another's hand is one more.
+    """The mark of an ideal arm as a disc before a plain table; another's hand is one more."""
 
-    Args:
-        arm: Whose mark it is.
-        radius: Of the mark [m].
-        colour: Red, green, blue [0..255].
-    """
-
-    def __init__(self, arm: IdealArm, radius: float, colour: Pixel) -> None:
-        self._arm, self._radius, self._colour = arm, radius, colour
-        self._other: list[tuple[Array, float, Pixel]] = []
+    arm: IdealArm
+    radius: float  # [m]
+    colour: Pixel
+    _others: list[tuple[Array, float, Pixel]] = field(default_factory=list, init=False)
 
     def show(self, shown: Shown, hand: Hand) -> None:
         """Have a demonstrator's hand before the table, or none."""
-        self._other = [] if shown.mark is None else [(shown.mark, hand.radius, pixel(hand.colour))]
+        self._others = []
+        if shown.mark is not None:
+            self._others = [(shown.mark, hand.radius, pixel(hand.colour))]
 
     def photograph(self, space: VisualSpace, eye: Array, gaze: Array) -> Image:
         """The picture from `eye` [m] along `gaze` [rad], RGB."""
         width, height = space.size
         picture = np.full((height, width, 3), TABLE, dtype=np.uint8)
-        marks = [(self._arm.mark_position(), self._radius, self._colour), *self._other]
+        marks = [(self.arm.mark_position(), self.radius, self.colour), *self._others]
         turn = rotation(gaze).T
         seen = [(turn @ (position - eye), radius, colour) for position, radius, colour in marks]
         for (right, down, depth), radius, colour in sorted(seen, key=lambda mark: -mark[0][2]):
