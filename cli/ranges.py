@@ -11,6 +11,7 @@ from cli.schema import (
     HueRange,
     Names,
     NotNegative,
+    Pair,
     Place,
     Positive,
     Section,
