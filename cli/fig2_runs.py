@@ -41,7 +41,7 @@ def boxes_of(bench: Bench, perception: Perception) -> list[Box]:
     return [
         Box("look", "body", (0, 0), robot.camera.look, "camera on its neck", "frame",
             lambda shot: shot.frame, ("height", "width", "3"), after=("read",)),
-        Box("pixels", "sense", (1, 0), perception.detector.hand_pixels, "what is red", "pixels",
+        Box("pixels", "sense", (1, 0), perception.detector.hand_in, "what is red", "pixels",
             lambda pixels: pixels, ("pixels", "2"), after=("look",)),
         Box("space", "sense", (2, 0), space.to_visual_space, "visual space", "places",
             lambda places: places, ("pixels", "2"), after=("pixels",)),
@@ -102,6 +102,6 @@ def _watched(bench: Bench, perception: Perception, samples: Iterator[Sample]) ->
         "columns": columns,
         "joints": len(bench.robot.body.joint_names),
         "attractors": len(sample.decision.postures),
-        "pixels": len(perception.detector.hand_pixels(sample.seen.frame)),
+        "pixels": len(perception.detector.hand_in(sample.seen)),
     }
     return Trace(calls, sizes)

@@ -15,6 +15,7 @@ from cli.schema import (
     Place,
     Positive,
     Section,
+    Share,
     Triple,
     Whole,
 )
@@ -59,6 +60,10 @@ RANGES: dict[str, dict[str, Any]] = {
         "saturation": ByteRange,
         "value": ByteRange,
         "min_pixels": Count,
+        "least_patch": Share,
+        "threshold": Annotated[int, Within(ge=0, le=255)],
+        "blur": Positive,
+        "keep": NotNegative,
     },
     "robot": {
         "base": Triple,

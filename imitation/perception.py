@@ -5,7 +5,7 @@ from typing import Protocol
 
 import numpy as np
 
-from imitation.arrays import Array, Image
+from imitation.arrays import Array
 from imitation.gaze import VisualSpace
 from imitation.robot import Observation
 from imitation.visual_field import VisualField
@@ -14,7 +14,7 @@ from imitation.visual_field import VisualField
 class Detector(Protocol):
     """Tells the hand's pixels from all others."""
 
-    def hand_pixels(self, frame: Image) -> Array:
+    def hand_in(self, seen: Observation) -> Array:
         """Centres of the hand's pixels, (n, 2) [px]; n = 0 when unseen."""
 
 
@@ -37,7 +37,7 @@ class Perception:
 
     def perceive(self, observation: Observation) -> Percept:
         """What `observation`'s frame shows."""
-        pixels = self.detector.hand_pixels(observation.frame)
+        pixels = self.detector.hand_in(observation)
         places = self.space.to_visual_space(pixels, observation.frame_gaze)
         places = places[np.isfinite(places).all(axis=1)] + observation.place_noise
         hand = places.mean(axis=0) if len(places) else None

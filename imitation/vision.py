@@ -1,11 +1,12 @@
-"""What of a frame is the hand: everything of its colour, own or other's."""
+"""What of a frame is the hand: all that has its colour, or all that moves; own or other's."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import cv2
 import numpy as np
 
 from imitation.arrays import Array, Image, Mask
+from imitation.robot import SECOND, Observation
 
 HUES = 180  # OpenCV's hue circle has 180 steps of 2 degrees
 
@@ -53,7 +54,77 @@ class ColourDetector:
 
     def hand_pixels(self, frame: Image) -> Array:
         """Centres of the hand's pixels, (n, 2) [px], pixel centres at +0.5; n = 0 when unseen."""
-        found = cv2.findNonZero(self.mask(frame).view(np.uint8))
-        if found is None or len(found) < self.min_pixels:
-            return np.empty((0, 2))
-        return found.reshape(-1, 2).astype(np.float64) + 0.5
+        return _centres(self.mask(frame), self.min_pixels)
+
+    def hand_in(self, seen: Observation) -> Array:
+        """The same in what is seen at a step."""
+        return self.hand_pixels(seen.frame)
+
+
+@dataclass(frozen=True)
+class PatchDetector(ColourDetector):
+    """Finds the large patches of one colour; specks of it are no hand.
+
+    Args:
+        least_patch: A connected patch smaller than this share of the largest is a speck [0..1].
+    """
+
+    least_patch: float
+
+    def mask(self, frame: Image) -> Mask:
+        """Pixels of the hand's colour in `frame`, without specks, (height, width)."""
+        found = super().mask(frame)
+        _, patches, told, _ = cv2.connectedComponentsWithStats(found.view(np.uint8))
+        sizes = told[:, cv2.CC_STAT_AREA]
+        sizes[0] = 0  # all that is not found
+        large = (sizes > 0) & (sizes >= self.least_patch * sizes.max())
+        return np.asarray(large[patches], dtype=bool)
+
+
+@dataclass
+class MovementDetector:
+    """Finds what changed since the frame before; what has just come to rest stays where it is.
+
+    Args:
+        threshold: A pixel moves when a colour of it changes by more than this [0..255].
+        blur: Pictures are smoothed by this before, so that their noise does not move [px].
+        min_pixels: Fewer moving pixels than this are no hand.
+        keep: A hand that rests is seen where it moved last for so long [s].
+    """
+
+    threshold: int
+    blur: float
+    min_pixels: int
+    keep: float
+    _before: Observation | None = field(default=None, init=False)
+    _smooth: Image | None = field(default=None, init=False)  # frame before
+    _moved: Array = field(default_factory=lambda: np.empty((0, 2)), init=False)  # last [px]
+    _moved_ns: int = field(default=0, init=False)
+
+    def hand_in(self, seen: Observation) -> Array:
+        """Centres of the hand's pixels, (n, 2) [px]; call with every observation, in order."""
+        before, self._before = self._before, seen
+        if before is None or seen.begins or (seen.frame_gaze != before.frame_gaze).any():
+            self._smooth, self._moved = None, np.empty((0, 2))  # all would have moved
+        if before is None or self._smooth is None or seen.frame_time_ns != before.frame_time_ns:
+            self._compare(seen)
+        resting_ns = seen.frame_time_ns - self._moved_ns
+        return self._moved if resting_ns <= self.keep * SECOND else np.empty((0, 2))
+
+    def _compare(self, seen: Observation) -> None:
+        smooth, before = cv2.GaussianBlur(seen.frame, (0, 0), self.blur), self._smooth
+        self._smooth = np.asarray(smooth, dtype=np.uint8)
+        if before is None:
+            return
+        moving = cv2.absdiff(self._smooth, before).max(axis=2) > self.threshold
+        places = _centres(moving, self.min_pixels)
+        if len(places):
+            self._moved, self._moved_ns = places, seen.frame_time_ns
+
+
+def _centres(mask: Mask, min_pixels: int) -> Array:
+    """Centres of the pixels in a mask, (n, 2) [px]; none when there are fewer than asked."""
+    found = cv2.findNonZero(mask.view(np.uint8))
+    if found is None or len(found) < min_pixels:
+        return np.empty((0, 2))
+    return found.reshape(-1, 2).astype(np.float64) + 0.5

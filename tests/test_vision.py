@@ -1,10 +1,14 @@
 """What of a frame is the hand."""
 
+import cv2
 import numpy as np
 import pytest
+import yaml
 
+from cli.keys import CONF
 from imitation.arrays import Image
-from imitation.vision import ColourDetector
+from imitation.robot import Observation
+from imitation.vision import ColourDetector, MovementDetector, PatchDetector
 
 RED, GREEN, BLUE, GREY = (255, 0, 0), (0, 255, 0), (0, 0, 255), (128, 128, 128)
 
@@ -76,3 +80,101 @@ def test_own_and_others_hand_are_both_the_hand():
 def test_a_range_that_cannot_be_is_refused_by_name(name, ranges):
     with pytest.raises(ValueError, match=f"vision.{name}"):
         ColourDetector(*ranges, min_pixels=1)
+
+
+def patches(*sizes: int) -> Image:
+    """A grey frame of 20 by 60 px with squares of red, `sizes` px wide, apart from each other."""
+    frame = np.full((20, 60, 3), GREY, dtype=np.uint8)
+    for number, size in enumerate(sizes):
+        frame[2 : 2 + size, 2 + 15 * number : 2 + 15 * number + size] = RED
+    return frame
+
+
+def test_specks_beside_a_large_patch_are_no_hand():
+    detector = PatchDetector((170, 10), (100, 255), (80, 255), min_pixels=1, least_patch=0.3)
+    assert detector.mask(patches(10, 5, 8)).sum() == 10 * 10 + 8 * 8
+    assert detector.mask(patches(5)).sum() == 25
+    assert not detector.mask(patches()).any()
+    assert len(detector.hand_pixels(patches(10, 2))) == 100
+
+
+def skin_detector() -> PatchDetector:
+    with (CONF / "vision" / "skin.yaml").open() as file:
+        node = yaml.safe_load(file)
+    del node["_target_"]
+    return PatchDetector(**node)
+
+
+# Photographed skin from very light to very dark, in plain light [RGB].
+SKIN = [
+    (241, 194, 170),
+    (224, 172, 145),
+    (198, 134, 102),
+    (160, 105, 80),
+    (110, 70, 52),
+    (75, 48, 38),
+]
+WALLS = [(225, 222, 215), (128, 128, 128), (120, 150, 190), (120, 170, 120), (235, 220, 180)]
+WOOD = (158, 132, 102)  # the simulated table
+
+
+@pytest.mark.parametrize("wall", WALLS)
+@pytest.mark.parametrize("skin", SKIN)
+@pytest.mark.parametrize("light", [0.75, 1.0])
+def test_hands_light_and_dark_are_seen_before_many_walls_and_nothing_else(skin, wall, light):
+    frame = np.full((120, 160, 3), wall, dtype=np.uint8)
+    cv2.ellipse(frame, (100, 50), (30, 15), 20, 0, 360, skin, -1)
+    noise = np.random.default_rng(0).normal(0, 3, frame.shape)
+    shot = np.clip(frame * light + noise, 0, 255).astype(np.uint8)
+    pixels = skin_detector().hand_pixels(shot)
+    assert pixels.mean(axis=0) == pytest.approx((100.5, 50.5), abs=1.0)
+    assert len(pixels) == pytest.approx(np.pi * 30 * 15, rel=0.1)
+
+
+def test_the_simulated_table_is_no_skin():
+    assert not skin_detector().mask(np.full((4, 6, 3), WOOD, dtype=np.uint8)).any()
+
+
+def seen_at(step: int, x: float, gaze: float = 0.0, frame_step: int | None = None) -> Observation:
+    """What is seen at a step of 0.1 s: a dark square at `x` [px]."""
+    frame = np.full((40, 60, 3), GREY, dtype=np.uint8)
+    frame[15:25, int(x) : int(x) + 10] = 40
+    captured = 100_000_000 * (step if frame_step is None else frame_step)
+    nothing = np.zeros(2)
+    return Observation(
+        100_000_000 * step, nothing, nothing, np.array((gaze, 0.0)), frame, captured,
+        np.array((gaze, 0.0)), nothing, 1.0, np.inf, False, begins=step == 0,
+    )  # fmt: skip
+
+
+def movement(keep: float = 0.25) -> MovementDetector:
+    return MovementDetector(threshold=20, blur=0.5, min_pixels=10, keep=keep)
+
+
+def test_what_moves_is_the_hand_and_what_rests_is_not():
+    detector = movement()
+    assert not len(detector.hand_in(seen_at(0, 20)))
+    assert not len(detector.hand_in(seen_at(1, 20)))
+    pixels = detector.hand_in(seen_at(2, 24))  # 4 px left free and 4 px newly covered
+    assert pixels.mean(axis=0) == pytest.approx((27, 20), abs=0.5)
+
+
+def test_a_hand_that_comes_to_rest_is_seen_there_for_a_while():
+    detector = movement(keep=0.25)
+    seen = [len(detector.hand_in(seen_at(step, 20 + 4 * min(step, 1)))) for step in range(6)]
+    assert [count > 0 for count in seen] == [False, True, True, True, False, False]
+
+
+def test_a_frame_that_is_delivered_again_is_not_a_hand_at_rest():
+    once, again = movement(keep=0.0), movement(keep=0.0)
+    frames = [(0, 20), (1, 24), (2, 28)]
+    for step, x in frames:
+        pixels = once.hand_in(seen_at(step, x))
+        assert (again.hand_in(seen_at(step, x)) == pixels).all()
+        assert (again.hand_in(seen_at(step, x, frame_step=step)) == pixels).all()
+
+
+def test_neither_a_new_episode_nor_a_turn_of_the_neck_is_a_movement():
+    detector = movement()
+    for first in (seen_at(0, 20), seen_at(0, 40), seen_at(5, 20, gaze=0.1)):
+        assert not len(detector.hand_in(first))
