@@ -1,7 +1,7 @@
 """Makes robots, perception and maps out of a composed configuration."""
 
 import zlib
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from inspect import signature
@@ -14,15 +14,19 @@ from imitation.arrays import Array
 from imitation.controllers.controller import Controller
 from imitation.dynamics import Dynamics
 from imitation.gaze import VisualSpace
+from imitation.guard import Guard
 from imitation.perception import Perception
-from imitation.robot import SECOND, Robot
+from imitation.robot import SECOND, Body, Robot
 from imitation.robots.bodies import guard_of
 from imitation.robots.demonstrators import Hand, HandOverTable
+from imitation.robots.recorded import RecordedRobot
+from imitation.sample import RecordedStep
 from imitation.sequence import TimeCells, TimedSequence
 from imitation.visual_field import VisualField
 from imitation.visuo_motor_map import Learning, VisuoMotorMap
 
 Config = Mapping[str, Any]
+BODY = "imitation.robots.bodies.body_of"  # joints and limits of an arm, without the arm
 
 DEMONSTRATOR = ("name", "hand", "hands", "height", "raise")  # keys that all gestures share
 
@@ -99,8 +103,7 @@ class Bench:
             "demonstrator": self.demonstrator,
         }
         camera = make_offered(_plain(self.cfg["camera"], "size", "focal_px", "gaze"), offered)
-        shared = {"urdf": node["arm"]["urdf"], "base": node["arm"]["base"]}
-        guard = guard_of(arm.body, **shared, **node["guard"])
+        guard = self._guard(arm.body)
         return Robot(arm, camera, guard, self.guided.mean(axis=0), self.period_ns)
 
     @cached_property
@@ -119,6 +122,17 @@ class Bench:
         hand = Hand(**node["hands"][node["hand"]])
         eye, height, higher = np.array(camera["eye"]), node["height"], node["raise"]
         return HandOverTable(hand, gesture, self.space, eye, height, higher)
+
+    def relive(self, steps: Iterator[RecordedStep]) -> None:
+        """Have a robot from now on that senses what a recording tells, step by step."""
+        body = make_offered({"_target_": BODY}, self.cfg["robot"]["arm"])
+        home = self.guided.mean(axis=0)
+        self.robot = RecordedRobot(body, self._guard(body), home, self.period_ns, steps)
+
+    def _guard(self, body: Body) -> Guard:
+        node = self.cfg["robot"]
+        shared = {"urdf": node["arm"]["urdf"], "base": node["arm"]["base"]}
+        return guard_of(body, **shared, **node["guard"])
 
     @property
     def period_ns(self) -> int:

@@ -40,6 +40,9 @@ Words = Annotated[
 ]
 
 
+Recorded = Annotated[Path, typer.Argument(help="A run's folder, or its run.mcap.")]
+
+
 @app.callback(invoke_without_command=True)
 def imitate(
     context: typer.Context,
@@ -121,6 +124,21 @@ def emulate(
 
     asked = Asked(model, port, pty, fault or [], speed)
     raise typer.Exit(attempt(lambda: emulate(device, asked)))
+
+
+@app.command()
+def verify(
+    run: Recorded,
+    with_: Annotated[
+        list[str] | None,
+        typer.Option("--with", metavar="KEY=VALUE", help="What if: decide with this instead."),
+    ] = None,
+) -> None:
+    """Make every decision of a recording anew, from what was sensed, and compare."""
+    from cli.job import attempt
+    from cli.verify import verify, what_if
+
+    raise typer.Exit(attempt(lambda: what_if(run, with_) if with_ else verify(run)))
 
 
 def main() -> Any:

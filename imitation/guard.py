@@ -8,6 +8,7 @@ import numpy as np
 from imitation.arrays import Array
 from imitation.dynamics import fastest_stoppable
 
+REASONS = ("not a number", "speed", "acceleration", "joint limit", "surroundings")
 ROUNDING = 1e-9  # what differs by less is the same [rad, rad/s]
 
 

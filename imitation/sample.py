@@ -47,6 +47,16 @@ class Sample:
     events: tuple[Event, ...] = ()
 
 
+@dataclass(frozen=True)
+class RecordedStep:
+    """What a recording tells of the senses at one step, to decide on anew."""
+
+    seen: Observation
+    sent: Array  # velocity that the arm made of the command, (n_joints,) [rad/s]
+    begins: bool  # an episode: the robot was reset before
+    trouble: str | None = None  # with the frame, why the arm was not to move
+
+
 def attractors_not_in_map(n: int) -> Index:
     """Index of `n` attractors that no cluster holds, (n, 3)."""
     return np.full((n, 3), -1, dtype=np.int32)

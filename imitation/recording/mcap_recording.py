@@ -59,7 +59,7 @@ class Recorder:
         patience: float | None = None,
     ) -> None:
         waiting, chunk_ns = bounds(max_loss, period_ns)
-        self._name, self._patience = path.name, patience
+        self.path, self._patience = path, patience
         self._closed = self._failed = False
         self._steps = StepMessages(body)
         try:
@@ -82,7 +82,7 @@ class Recorder:
             self._worker.put((sample, truths), self._patience)
         except queue.Full as full:
             raise RecorderError(
-                f"{self._name} cannot keep up: nothing could be written for {self._patience} s; "
+                f"{self.path.name} cannot keep up: nothing written for {self._patience} s; "
                 "record to a faster disk"
             ) from full
         except OSError as error:
@@ -128,7 +128,7 @@ class Recorder:
     def _failure(self, error: BaseException) -> RecorderError:
         self._failed = True
         told = error.strerror if isinstance(error, OSError) else None
-        return RecorderError(f"{self._name} cannot be written: {told or repr(error)}")
+        return RecorderError(f"{self.path.name} cannot be written: {told or repr(error)}")
 
 
 def bounds(max_loss: float, period_ns: int) -> tuple[int, int]:

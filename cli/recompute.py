@@ -1,0 +1,164 @@
+"""A recorded run decided on anew: the same stage, on a robot that senses what was recorded."""
+
+import hashlib
+import re
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from functools import cache
+from itertools import tee
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any
+
+import yaml
+from omegaconf import OmegaConf
+
+from cli import stages
+from cli.build import Bench, Config
+from cli.check import checked
+from cli.errors import UserError, no_such
+from cli.jobs.reach import trials_of
+from cli.keys import CONF
+from cli.what_if import replaced
+from imitation.recording.map_file import load_map
+from imitation.recording.mcap_recording import Recording
+from imitation.recording.recorded_steps import StepTold, steps_told
+from imitation.robots.recorded import Unrecorded
+from imitation.sample import Sample
+from imitation.visual_field import VisualField
+
+Staged = tuple[VisualField, Iterator[Sample]]
+HASHED = "sha256:"  # stands before the digest of a file that the configuration names
+
+
+@dataclass(frozen=True)
+class Anew:
+    """A recorded run, and the same decided on anew."""
+
+    bench: Bench
+    field: VisualField
+    told: Iterator[StepTold]
+    samples: Iterator[Sample]
+
+    def paired(self) -> Iterator[tuple[StepTold | None, Sample | None]]:
+        """Each recorded step with what was decided anew, up to where the recording ends.
+
+        One of the two is None where the stage now ends an episode earlier or later.
+        """
+        waiting = next(self.told, None)
+        for sample in self.samples:
+            if waiting is None:
+                return
+            if isinstance(sample.seen, Unrecorded):
+                yield None, sample
+                continue
+            while waiting is not None and waiting.step.seen is not sample.seen:
+                yield waiting, None
+                waiting = next(self.told, None)
+            yield waiting, sample
+            waiting = next(self.told, None)
+        while waiting is not None:
+            yield waiting, None
+            waiting = next(self.told, None)
+
+
+@contextmanager
+def anew(recording: Recording, words: Sequence[str] = ()) -> Iterator[Anew]:
+    """Decide anew on what a recording tells.
+
+    Args:
+        recording: Of any stage.
+        words: KEY=VALUE words that change its configuration.
+
+    Raises:
+        UserError: It cannot be recomputed; the message says why.
+    """
+    command = recording.metadata["run"].get("command", "")
+    if command not in STAGES:
+        raise UserError(f"{recording.path}: {no_such('stage', command, sorted(STAGES))}")
+    with TemporaryDirectory() as folder:
+        cfg = replaced(command, _unpacked(recording, Path(folder)), words)
+        bench = Bench(checked(command, OmegaConf.create(dict(cfg))))
+        told, fed = tee(steps_told(recording))
+        bench.relive(one.step for one in fed)
+        field, samples = STAGES[command](bench)
+        yield Anew(bench, field, told, samples)
+
+
+def _learning(bench: Bench) -> Staged:
+    _, samples = stages.learning(bench)
+    return bench.field, samples
+
+
+def _reaching(bench: Bench) -> Staged:
+    stored = load_map(Path(bench.cfg["map"]))
+    return stored.map.field, stages.reaching(bench, stored.map, trials_of(bench, stored))
+
+
+def _watching(bench: Bench) -> Staged:
+    _, samples = stages.watching(bench)
+    return bench.field, samples
+
+
+STAGES: Mapping[str, Callable[[Bench], Staged]] = {
+    "learn-map": _learning,
+    "reach": _reaching,
+    "demo-record": _watching,
+}
+
+
+def configuration(recording: Recording) -> dict[str, Any]:
+    """The configuration that a run was given, as its recording tells it.
+
+    Raises:
+        UserError: There is none, or it is damaged.
+    """
+    try:
+        cfg = yaml.safe_load(recording.attachments["config.yaml"])
+    except (KeyError, ValueError, yaml.YAMLError):
+        cfg = None
+    if not isinstance(cfg, dict):
+        raise UserError(f"{recording.path} holds no configuration: it cannot be recomputed")
+    return cfg
+
+
+def _unpacked(recording: Recording, folder: Path) -> Config:
+    """The configuration with the files that it names written into `folder`."""
+    cfg = configuration(recording)
+    for target in _values("_target_", cfg):
+        if target not in known_targets():  # nothing named in a file is called unless we know it
+            raise UserError(f"{recording.path} names {target}: no part of this program")
+    files = {hashlib.sha256(data).hexdigest(): data for data in recording.attachments.values()}
+    for key, value in cfg.items():
+        if isinstance(value, str) and value.startswith(HASHED):
+            data = files.get(value.removeprefix(HASHED))
+            if data is None:
+                raise UserError(f"{recording.path}: the file of {key}= is missing or was changed")
+            path = folder / f"{key}{FILES.get(key, '')}"
+            path.write_bytes(data)
+            cfg[key] = str(path)
+    models = [data for name, data in recording.attachments.items() if name.endswith(".urdf")]
+    if models and "urdf" in cfg.get("robot", {}).get("arm", {}):
+        (folder / "arm.urdf").write_bytes(models[0])
+        cfg["robot"]["arm"]["urdf"] = str(folder / "arm.urdf")
+    return {"out": None, **cfg}
+
+
+FILES = {"map": ".npz", "action": ".json"}  # what the files that a configuration names are
+
+
+@cache
+def known_targets() -> frozenset[str]:
+    """Everything that our configuration makes parts of."""
+    texts = [path.read_text() for path in CONF.rglob("*.yaml")]
+    return frozenset(re.findall(r"^\s*_target_: *(\S+)", "\n".join(texts), re.MULTILINE))
+
+
+def _values(key: str, node: Any) -> Iterator[str]:
+    if isinstance(node, dict):
+        for name, value in node.items():
+            yield from [str(value)] if name == key else _values(key, value)
+    elif isinstance(node, list):
+        for value in node:
+            yield from _values(key, value)

@@ -1,0 +1,164 @@
+"""imitate verify: every logged decision is made anew from the logged senses, and compared."""
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from pathlib import Path
+
+import numpy as np
+from omegaconf import OmegaConf
+from rich.console import Console
+from rich.table import Table
+
+from cli.errors import DONE, NOT_TRUE, say
+from cli.provenance import run_record
+from cli.recompute import Anew, anew, configuration
+from cli.what_if import replaced
+from imitation.analysis.comparison import Comparison, Difference
+from imitation.analysis.seal import Break, broken, cited
+from imitation.recording.mcap_recording import Recorder, Recording
+from imitation.recording.recorded_steps import StepTold
+from imitation.recording.step_messages import StepMessages
+from imitation.robot import SECOND
+from imitation.sample import Sample
+
+WIDEST = 16  # of a value in a table [letters]
+
+Pairs = Iterable[tuple[StepTold | None, Sample | None]]
+
+
+def verify(run: Path) -> int:
+    """Compare a recording with what is decided anew; the exit code."""
+    recording = Recording.open(run)
+    breaks, found = broken(recording), Comparison(recording.topics)
+    stopped = ""
+    try:
+        with anew(recording) as decided:
+            compare(found, decided, decided.paired())
+    except Exception as error:
+        if not breaks:
+            raise
+        stopped = str(error)  # whatever a changed recording leads to
+    told = [("steps", f"{found.steps} decided anew")]
+    told += [("digest", f"{cited(recording.digest())}  {_seal(breaks)}")]
+    told += [("decisions", _differing(found) if found.differing else "the same, bit for bit")]
+    told += list(_versions(recording))
+    show("imitate verify", told, found)
+    complaints = [one.sentence for one in breaks] + [f"recomputing ended: {stopped}"] * bool(
+        stopped
+    )
+    complaints += [found.first.sentence] if found.first else []
+    for complaint in complaints:
+        say(complaint)
+    return NOT_TRUE if complaints else DONE
+
+
+def what_if(run: Path, words: Sequence[str]) -> int:
+    """Decide anew with other parameters, record it, and say what would have been otherwise."""
+    recording = Recording.open(run)
+    found = Comparison(recording.topics)
+    with anew(recording, words) as decided, _second(recording, decided, words) as second:
+        compare(found, decided, _recorded_too(decided.paired(), second))
+    told = [("steps", f"{found.steps} decided anew")]
+    told += [("decisions", _differing(found) if found.differing else "the same, bit for bit")]
+    show(f"what if: {' '.join(words)}", told, found)
+    path = second.path
+    Console(highlight=False, soft_wrap=True).print(f"files  {path}", markup=False)
+    return DONE
+
+
+def compare(found: Comparison, decided: Anew, pairs: Pairs) -> None:
+    """Compare every step with what is decided anew."""
+    steps = StepMessages(decided.bench.robot.body)
+    for told, sample in pairs:
+        if told is None or sample is None:
+            found.note(_one_sided(told, sample))
+        else:
+            found.add(told.messages, list(steps.of(sample, ())))
+
+
+def _one_sided(told: StepTold | None, sample: Sample | None) -> Difference:
+    goes_on, over = "goes on", "is over"
+    if told is not None:
+        return Difference(told.time_ns, "steps", "episode", goes_on, over, float("inf"))
+    assert sample is not None
+    return Difference(sample.seen.time_ns, "steps", "episode", over, goes_on, float("inf"))
+
+
+def _recorded_too(pairs: Pairs, second: Recorder) -> Pairs:
+    for told, sample in pairs:
+        if told is not None and sample is not None:
+            second.write(sample, ())
+        yield told, sample
+
+
+def _second(recording: Recording, decided: Anew, words: Sequence[str]) -> Recorder:
+    """A recording beside the first one."""
+    command, recorded = recording.metadata["run"]["command"], configuration(recording)
+    text = OmegaConf.to_yaml(OmegaConf.create(dict(replaced(command, recorded, words))))
+    return Recorder(
+        _free(recording.path.with_name("what-if.mcap")),
+        body=decided.bench.robot.body,
+        field=decided.field,
+        period_ns=decided.bench.period_ns,
+        metadata=recording.metadata["run"] | {"what_if": " ".join(words)},
+        attachments=recording.attachments | {"config.yaml": text.encode()},
+        max_loss=decided.bench.cfg["recording"]["max_loss"],
+        reproducible=True,
+    )
+
+
+def _free(path: Path) -> Path:
+    free, number = path, 1
+    while free.exists():
+        number += 1
+        free = path.with_stem(f"{path.stem}-{number}")
+    return free
+
+
+def show(title: str, told: Sequence[tuple[str, str]], found: Comparison) -> None:
+    """Print what came out, and what differs on each topic."""
+    console = Console(highlight=False, soft_wrap=True)
+    table = Table(title=title, title_justify="left", show_header=False)
+    for row in told:
+        table.add_row(*row)
+    console.print(table)
+    if not found.differing:
+        return
+    table = Table(title="what differs", title_justify="left")
+    table.add_column("topic", no_wrap=True)
+    for heading in ("steps", "first at", "recorded", "recomputed", "most"):
+        table.add_column(heading, justify="right")
+    for topic, one in found.differing.items():
+        first, most = one.first, f"{one.largest:.2g}" if np.isfinite(one.largest) else ""
+        values = (_short(first.recorded), _short(first.recomputed))
+        table.add_row(topic, str(one.steps), f"{first.time_ns / SECOND:.2f} s", *values, most)
+    console.print(table)
+
+
+def _short(value: str) -> str:
+    try:
+        return f"{float(value):.4g}"
+    except ValueError:
+        return value if len(value) <= WIDEST else f"{value[: WIDEST - 3]}..."
+
+
+def _differing(found: Comparison) -> str:
+    return f"differ on {len(found.differing)} topics"
+
+
+def _seal(breaks: Sequence[Break]) -> str:
+    return "does not match the content" if breaks else "matches the content"
+
+
+def _versions(recording: Recording) -> Iterator[tuple[str, str]]:
+    """Which program wrote the recording, when it is not this one."""
+    wrote = recording.metadata["run"]
+    here = run_record(wrote.get("command", ""), 0, "")
+    keys = ("version", "git_revision", "git_dirty")
+    if any(wrote.get(key) != here[key] for key in keys):
+        yield "written by", _program(wrote)
+        yield "this is", _program(here)
+
+
+def _program(record: Mapping[str, str]) -> str:
+    changed = " and changes" if record.get("git_dirty") == "true" else ""
+    return f"{record.get('version', '?')} at {record.get('git_revision', '')[:12]}{changed}"
