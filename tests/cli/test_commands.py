@@ -12,7 +12,7 @@ from typer.main import get_command
 import imitation
 from cli.check import checked
 from cli.help import EXAMPLES, complete
-from cli.keys import CONF, comments, defaults, groups, groups_of
+from cli.keys import CONF, comments, groups, groups_of
 from cli.main import app
 from cli.schema import COMMANDS
 
@@ -136,9 +136,11 @@ CHOICES = [
 def test_every_choice_composes_and_passes_the_check(command, group, choice):
     from hydra import compose, initialize_config_module
 
-    given = [f"{key}=given" for key, value in defaults(command).items() if value == "???"]
     with initialize_config_module("conf", version_base="1.3"):
-        checked(command, compose(command.replace("-", "_"), [f"{group}={choice}", *given]))
+        composed = compose(command.replace("-", "_"), [f"{group}={choice}"])
+    for key in OmegaConf.missing_keys(composed):
+        OmegaConf.update(composed, key, "given")
+    checked(command, composed)
 
 
 @pytest.mark.parametrize("path", sorted(CONF.glob("*.yaml")), ids=lambda path: path.stem)
