@@ -145,6 +145,11 @@ class Bench:
         """Postures the experimenter guided the arm to, (n, n_joints) [rad]."""
         return np.array(self.cfg["robot"]["guided"], dtype=float)
 
+    @property
+    def rest(self) -> Array:
+        """The posture in which the arm is out of the camera's view, (n_joints,) [rad]."""
+        return np.array(self.cfg["robot"]["rest"], dtype=float)
+
     @cached_property
     def dynamics(self) -> Dynamics:
         """Eqs. 1 and 2 for this arm."""

@@ -116,6 +116,7 @@ def check_joints(robot: Config | None) -> None:
         return
     count = len(robot["arm"]["joints"])
     given = {f"robot.guided[{i}]": posture for i, posture in enumerate(robot["guided"])}
+    given["robot.rest"] = robot["rest"]
     given["robot.arm.force"] = robot["arm"].get("force")
     for key, values in given.items():
         if values is not None and len(values) != count:

@@ -127,6 +127,7 @@ class Robot(Section):
     arm: Target
     head: Head
     guided: Annotated[list[Posture], Within(min_length=2)]
+    rest: Posture
     guard: Guard
     holding: Holding
 

@@ -43,5 +43,5 @@ def watching(bench: Bench) -> tuple[VisualStates, Iterator[Sample]]:
     cfg, states = bench.cfg, VisualStates(Resting(**bench.cfg["states"]))
     settings, perception = Watching(**cfg["demo"]), bench.perception(bench.field)
     return states, demo_record(
-        bench.robot, perception, bench.dynamics, states, settings, bench.robot.home
+        bench.robot, perception, bench.dynamics, states, settings, bench.rest
     )
