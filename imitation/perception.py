@@ -5,7 +5,7 @@ from typing import Protocol
 
 import numpy as np
 
-from imitation.arrays import Array
+from imitation.arrays import Array, Mask
 from imitation.gaze import VisualSpace
 from imitation.robot import Observation
 from imitation.visual_field import VisualField
@@ -35,10 +35,17 @@ class Perception:
     space: VisualSpace
     field: VisualField
 
-    def perceive(self, observation: Observation) -> Percept:
-        """What `observation`'s frame shows."""
+    def perceive(self, observation: Observation, attended: Mask | None = None) -> Percept:
+        """What `observation`'s frame shows.
+
+        Args:
+            observation: What the robot senses.
+            attended: Areas that a hand counts in, (rows, columns): of two hands only one may be
+                of interest. None: anywhere. The visual input is that of the whole image anyway.
+        """
         pixels = self.detector.hand_in(observation)
         places = self.space.to_visual_space(pixels, observation.frame_gaze)
         places = places[np.isfinite(places).all(axis=1)] + observation.place_noise
-        hand = places.mean(axis=0) if len(places) else None
+        counting = places if attended is None else places[self.field.inside(attended, places)]
+        hand = counting.mean(axis=0) if len(counting) else None
         return Percept(observation.frame_time_ns, hand, self.field.activity(places))

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+from numpy.typing import NDArray
 
 from imitation.arrays import Array, Mask
 
@@ -59,13 +60,19 @@ class VisualField:
         """Visual input I: each area's share of the hand's pixels (n, 2) [px]; 0 when unseen."""
         if not len(places):
             return np.zeros(self.shape)
-        x_edges, y_edges = self.edges
-        columns = np.searchsorted(x_edges, places[:, 0], side="right")
-        rows = np.searchsorted(y_edges, places[:, 1], side="right")
-        # One more row and column on each side take what lies outside.
+        rows, columns = self._framed(places)
         framed = (self.rows + 2, self.columns + 3)
         counts = np.bincount(rows * framed[1] + columns, minlength=framed[0] * framed[1])
         return np.asarray(counts.reshape(framed)[1:-1, 1:-1] / len(places))
+
+    def inside(self, areas: Mask, places: Array) -> Mask:
+        """Which `places` (n, 2) [px] lie in one of `areas` (rows, columns), (n,)."""
+        return np.asarray(np.pad(areas, 1)[self._framed(places)])
+
+    def around(self, area: Area) -> Mask:
+        """An area and its neighbours, those at its corners too, (rows, columns)."""
+        rows, columns = np.indices(self.shape)
+        return np.asarray((abs(rows - area[0]) <= 1) & (abs(columns - area[1]) <= 1))
 
     def area_of(self, place: Array) -> Area | None:
         """The area that `place` (2,) [px] lies in; None outside the visual space."""
@@ -79,6 +86,12 @@ class VisualField:
         """Selection V: 1 for every area whose centre is nearer than `radius` [px] to `place`."""
         near = np.linalg.norm(self.centres - place, axis=-1) < radius
         return np.asarray(near, dtype=np.float64)
+
+    def _framed(self, places: Array) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+        """Row and column of each place, counted from 1: those outside are in the frame around."""
+        x_edges, y_edges = self.edges
+        columns = np.searchsorted(x_edges, places[:, 0], side="right")
+        return np.searchsorted(y_edges, places[:, 1], side="right"), columns
 
 
 def winner_take_all(visual_input: Array) -> Array:

@@ -1,0 +1,202 @@
+"""Deferred imitation in numbers: what was done, in which order, when, and to the object."""
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from imitation.arrays import Array
+from imitation.robot import Truth
+from imitation.sample import Sample
+from imitation.visual_field import Area, VisualField
+
+PASSING = 0.3  # another learned state may be crossed for this long on the way [s]
+CARRIED_FOR = 1.0  # a thing that moves with the hand this long is grasped [s]
+CARRIED_FAR = 0.02  # it must have moved this far in that time [m]
+SLIPPED = 0.015  # and by no more than this otherwise than the hand [m]
+
+
+@dataclass(frozen=True)
+class Visit:
+    """The hand's stay in the area of a state."""
+
+    area: Area
+    begin: float  # [s]
+    end: float  # [s]
+
+
+@dataclass(frozen=True)
+class Order:
+    """How a path went through the areas of an action."""
+
+    entries: tuple[float, ...]  # when the states in order were entered [s]
+    correct: bool  # all of them, and no other in between for long
+
+
+def visits_of(
+    times: Sequence[float], hands: Sequence[Array], areas: Iterable[Area], field_: VisualField
+) -> list[Visit]:
+    """Stays of a hand (n, 2) [px], seen at `times` [s], in any of `areas`."""
+    of_interest, found = set(areas), list[Visit]()
+    before: Area | None = None
+    for time, hand in zip(times, hands, strict=True):
+        area = field_.area_of(hand) if np.isfinite(hand).all() else None
+        if area in of_interest and area is not None:
+            begin = found[-1].begin if area == before else time
+            if area == before:
+                found.pop()
+            found.append(Visit(area, begin, time))
+        before = area
+    return found
+
+
+def in_order(visits: Sequence[Visit], expected: Sequence[Area]) -> Order:
+    """Whether `visits` go through `expected` in order, no other state between for long."""
+    entries: list[float] = []
+    correct = True
+    for visit in visits:
+        reached = len(entries)
+        if reached < len(expected) and visit.area == expected[reached]:
+            entries.append(visit.begin)
+        elif reached and visit.area == expected[reached - 1]:
+            continue
+        elif visit.end - visit.begin > PASSING:
+            correct = False
+    return Order(tuple(entries), correct and len(entries) == len(expected))
+
+
+def carried(times: Sequence[float], touching: Sequence[bool], hands: Array, things: Array) -> bool:
+    """Whether both fingers touched a thing that moved with the hand for a second.
+
+    Args:
+        times: [s].
+        touching: Both fingers touched something.
+        hands: True places of the hand, (n, 3) [m].
+        things: Of the thing, (n, 3) [m].
+    """
+    first = 0
+    for last, time in enumerate(times):
+        if not touching[last]:
+            first = last + 1
+            continue
+        while first < last and time - times[first + 1] >= CARRIED_FOR:
+            first += 1
+        moved, with_hand = things[last] - things[first], hands[last] - hands[first]
+        far = np.linalg.norm(moved) >= CARRIED_FAR
+        together = np.linalg.norm(moved - with_hand) <= SLIPPED
+        if time - times[first] >= CARRIED_FOR - 1e-9 and far and together:
+            return True
+    return False
+
+
+@dataclass
+class DeferredMetrics:
+    """Follows a replay, sample by sample.
+
+    Args:
+        visual_field: Of the map.
+        areas: The map's area of each state of the action; None where it learned nothing.
+        times: When the demonstrator entered each state [s].
+        goal: Where the demonstrator put the object, (3,) [m]; None without one.
+    """
+
+    visual_field: VisualField
+    areas: Sequence[Area | None]
+    times: Sequence[float]
+    goal: Array | None
+    _truths: dict[int, Truth] = field(default_factory=dict)  # not yet decided on
+    _times: list[float] = field(default_factory=list)
+    _hands_px: list[Array] = field(default_factory=list)
+    _hands: list[Array] = field(default_factory=list)
+    _things: list[Array] = field(default_factory=list)
+    _touching: list[bool] = field(default_factory=list)
+    _trigger: tuple[float, int] | None = None  # when [s], and which state was seen
+    _ended: float = float("inf")
+    _predicted: dict[int, float] = field(default_factory=dict)  # when, by state [s]
+
+    def add(self, sample: Sample, truths: Iterable[Truth]) -> None:
+        """Note one step and what was true around it."""
+        time = sample.seen.time
+        self._truths |= {truth.time_ns: truth for truth in truths}
+        if truth_now := self._truths.pop(sample.seen.time_ns, None):
+            self._note(time, truth_now, sample.seen.touching)
+        for event in sample.events:
+            state: Any = event.facts.get("state")
+            if event.kind == "trigger" and self._trigger is None:
+                self._trigger = (time, state)
+                since: Any = event.facts["since_s"]
+                self._predicted[state] = since
+            elif event.kind == "predicted" and self._ended == np.inf:
+                self._predicted[state] = time
+            elif event.kind == "ended":
+                self._ended = min(self._ended, time)
+
+    def _note(self, time: float, truth: Truth, touching: bool) -> None:
+        nowhere = np.full(3, np.nan)
+        self._times.append(time)
+        self._hands_px.append(truth.hand_px)
+        self._hands.append(truth.hand_m)
+        self._things.append(nowhere if truth.object_pose is None else truth.object_pose[:3])
+        self._touching.append(touching)
+
+    def result(self) -> dict[str, Any]:
+        """What `metrics.json` says."""
+        order, asked = self._order()
+        start, end = (self._things[0], self._things[-1]) if self._things else (None, None)
+        return {
+            "triggered_at_s": self._trigger[0] if self._trigger else None,
+            "triggered_by_state": self._trigger[1] if self._trigger else None,
+            "states_asked": len(asked),
+            "states_replayed": len(order.entries),
+            "order_correct": order.correct and bool(asked),
+            "timing_error_s": self._timing_errors(order, asked),
+            "clock_error_s": self._clock_errors(),
+            "grasped": self._grasped(),
+            "object_start_m": _place(start),
+            "object_end_m": _place(end),
+            "object_goal_m": _place(self.goal),
+            "object_error_m": _apart(end, self.goal),
+        }
+
+    def _order(self) -> tuple[Order, list[int]]:
+        """How the states after the trigger were entered, and which those are."""
+        if self._trigger is None:
+            return Order((), False), []
+        begun, state = self._trigger
+        asked = [k for k in range(state + 1, len(self.areas)) if self.areas[k] is not None]
+        # States that follow each other in one area of a coarse map are one to it.
+        asked = [
+            k for i, k in enumerate(asked) if not i or self.areas[k] != self.areas[asked[i - 1]]
+        ]
+        known = [area for area in self.areas if area is not None]
+        during = [i for i, time in enumerate(self._times) if begun <= time <= self._ended]
+        times, hands = [self._times[i] for i in during], [self._hands_px[i] for i in during]
+        visits = visits_of(times, hands, known, self.visual_field)
+        return in_order(visits, [area for k in asked if (area := self.areas[k])]), asked
+
+    def _timing_errors(self, order: Order, asked: Sequence[int]) -> list[float]:
+        entered = np.diff(order.entries)
+        shown = np.diff([self.times[k] for k in asked[: len(order.entries)]])
+        return [float(error) for error in entered - shown] if len(order.entries) > 1 else []
+
+    def _clock_errors(self) -> list[float]:
+        states = sorted(self._predicted)
+        played = np.diff([self._predicted[k] for k in states])
+        shown = np.diff([self.times[k] for k in states])
+        return [float(error) for error in played - shown] if len(states) > 1 else []
+
+    def _grasped(self) -> bool:
+        hands, things = np.array(self._hands), np.array(self._things)
+        return carried(self._times, self._touching, hands, things)
+
+
+def _place(position: Array | None) -> list[float] | None:
+    return None if position is None or np.isnan(position).any() else position.tolist()
+
+
+def _apart(end: Array | None, goal: Array | None) -> float | None:
+    """Distance on the table [m]."""
+    if end is None or goal is None or np.isnan(end).any():
+        return None
+    return float(np.linalg.norm(end[:2] - goal[:2]))
