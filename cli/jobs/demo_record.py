@@ -30,9 +30,9 @@ def watch(run: Run) -> Outcome:
     if len(states) >= 2:
         made_by = f"imitate demo-record, version {program_version()}"
         save_action(run.folder / "action.json", Action(run.bench.field, tuple(states)), made_by)
-    delays = [later.time - state.time for state, later in pairwise(states)]
+    delays = [round(later.time - state.time, 6) for state, later in pairwise(states)]
     played, complaint = play(run.bench, states)
-    errors = [again - delay for again, delay in zip(played, delays, strict=False)]
+    errors = [round(again - delay, 6) for again, delay in zip(played, delays, strict=False)]
     replay = " ".join(["imitate replay map=MAP action={run}", *run.body_words])
     return Outcome(
         metrics={"states": len(states), "delays_s": delays, "clock_error_s": errors},
@@ -45,7 +45,10 @@ def watch(run: Run) -> Outcome:
 def play(bench: Bench, states: Sequence[VisualState]) -> tuple[list[float], str | None]:
     """The delays as the internal loop plays them, or why it cannot."""
     if not states:
-        return [], "no hand was seen to rest; does it have the colour of vision=?"
+        return [], (
+            "no hand was seen to rest: has it the colour of vision=, and does it rest for longer "
+            "than states.dwell?"
+        )
     if len(states) < 2:
         return [], (
             f"the hand rested in area {list(states[0].area)} alone, an action needs 2 states or "
@@ -63,9 +66,9 @@ def play(bench: Bench, states: Sequence[VisualState]) -> tuple[list[float], str 
 def rows(states: Sequence[VisualState], delays: Sequence[float]) -> list[tuple[str, str]]:
     """What is printed of the states."""
     told = [("visual states", str(len(states)))]
-    for number, (state, delay) in enumerate(zip(states, [0.0, *delays], strict=True), start=1):
+    since = ["", *(f", {delay:.2f} s after" for delay in delays)]
+    for number, (state, after) in enumerate(zip(states, since, strict=False), start=1):
         x, y = state.place
-        after = f", {delay:.2f} s after" if number > 1 else ""
         told.append(
             (f"state {number}", f"area {list(state.area)}, at ({x:.1f}, {y:.1f}) px{after}")
         )
