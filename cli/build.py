@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from hydra.utils import get_method
 
+from imitation.approach import Approach
 from imitation.arrays import Array
 from imitation.controllers.controller import Controller
 from imitation.dynamics import Dynamics
@@ -19,6 +20,7 @@ from imitation.perception import Perception
 from imitation.robot import SECOND, Body, Robot
 from imitation.robots.bodies import guard_of
 from imitation.robots.demonstrators import Hand, HandOverTable
+from imitation.robots.dry_run import DryRun
 from imitation.robots.recorded import RecordedRobot
 from imitation.sample import RecordedStep
 from imitation.sequence import TimeCells, TimedSequence
@@ -94,6 +96,8 @@ class Bench:
         """The arm, its camera and the guard."""
         node = self.cfg["robot"]
         arm = make_offered(node["arm"], {"period": self.period_ns / SECOND})
+        if self.cfg["dry_run"]:
+            arm = DryRun(arm)
         offered = {
             "arm": arm,
             "space": self.learning_space,
@@ -104,7 +108,8 @@ class Bench:
         }
         camera = make_offered(_plain(self.cfg["camera"], "size", "focal_px", "gaze"), offered)
         guard = self._guard(arm.body)
-        return Robot(arm, camera, guard, self.guided.mean(axis=0), self.period_ns)
+        approach = Approach(**node["approach"]) if arm.live else None
+        return Robot(arm, camera, guard, self.guided.mean(axis=0), self.period_ns, approach)
 
     @cached_property
     def demonstrator(self) -> HandOverTable | None:

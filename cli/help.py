@@ -22,6 +22,8 @@ SWEEPS = [
 ]
 OPTIONS = [
     ("-m, --multirun", "sweep: run once for each combination of values"),
+    ("--dry-run", "do everything but move the arm"),
+    ("--yes", "let a real arm move without asking first"),
     ("--cfg job [--resolve]", "show the composed configuration, run nothing"),
     ("--info defaults", "show which files it is composed of"),
     ("--config-dir DIR", "take groups and experiments from DIR too"),

@@ -20,6 +20,8 @@ from cli.schema import (
     Whole,
 )
 
+Byte = Annotated[int, Within(ge=0, le=255)]
+
 
 class Mark(Section):
     """`robot.arm.mark`."""
@@ -37,6 +39,29 @@ class Table(Section):
     centre: Triple
     colour: Colour
     friction: NotNegative
+
+
+class Driving(Section):
+    """`robot.arm.driving`."""
+
+    calibrate: bool
+    unblock: bool
+    patience: Positive
+    following: Positive
+    overdue: Positive
+    lead: NotNegative
+    finger_speed: Positive
+    yielding: Positive
+    unsure: Whole
+
+
+class Sensing(Section):
+    """`robot.arm.sensing`."""
+
+    empty: Byte
+    close: Byte
+    reach: Positive
+    pressed: Byte
 
 
 RANGES: dict[str, dict[str, Any]] = {
@@ -67,6 +92,11 @@ RANGES: dict[str, dict[str, Any]] = {
     },
     "robot": {
         "base": Triple,
+        "model": Literal[300, 400, 450],
+        "timeout": Positive,
+        "tries": Count,
+        "driving": Driving,
+        "sensing": Sensing,
         "mark": Mark,
         "table": Table,
         "joints": Names,

@@ -17,6 +17,7 @@ import numpy as np
 from omegaconf import OmegaConf
 
 from cli.build import Bench, Config
+from cli.confirm import confirm_motion
 from cli.interruption import Interruption
 from cli.progress import ProgressReport
 from cli.provenance import run_record, sha256
@@ -104,6 +105,7 @@ class Run:
                 open_until_the_end.enter_context(closing(live))
                 watchers.append(live.show)
             report = open_until_the_end.enter_context(ProgressReport(self.command))
+            confirm_motion(self.bench)
             for sample in samples:
                 truths = robot.truth()
                 for one in (recorder.write, *watchers):

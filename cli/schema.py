@@ -120,6 +120,14 @@ class Holding(Section):
     height: float
 
 
+class Approach(Section):
+    """`robot.approach`."""
+
+    share: Annotated[float, Within(gt=0, le=1)]
+    tolerance: Positive
+    patience: Positive
+
+
 class Robot(Section):
     """`robot`."""
 
@@ -129,6 +137,7 @@ class Robot(Section):
     guided: Annotated[list[Posture], Within(min_length=2)]
     rest: Posture
     guard: Guard
+    approach: Approach | None = None  # of a real arm
     holding: Holding
 
 
@@ -146,6 +155,8 @@ class Common(Section):
     seed: Whole
     out: Place | None
     period: Positive
+    dry_run: bool
+    confirmed: bool
     recording: Recording
     camera: Camera
     robot: Robot

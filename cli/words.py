@@ -8,6 +8,7 @@ from cli.errors import UserError, nearest
 OVERRIDE = re.compile(r"^[+~]*[\w/@.]+=|^~[\w/@.]+$")
 PATHS = ("out", "map")  # keys whose values are paths
 SPECIAL = re.compile(r"[()\[\]{}=,'\"\\]")
+OURS = {"--yes": "confirmed=true", "--dry-run": "dry_run=true"}
 SWITCHES = {"-m": "--multirun", "--multirun": "--multirun", "--resolve": "--resolve"}
 WITH_VALUE = {
     "--cfg": ("job", "hydra", "all"),
@@ -46,12 +47,14 @@ def understand(typed: list[str]) -> Words:
         name, equals, value = word.partition("=")
         if OVERRIDE.match(word):
             words.overrides.append(word)
+        elif word in OURS:
+            words.overrides.append(OURS[word])
         elif name in SWITCHES and not equals:
             words.flags.append(SWITCHES[name])
         elif name in WITH_VALUE:
             words.flags.append(_with_value(name, value if equals else _next(name, rest)))
         elif word.startswith("-"):
-            known = [*SWITCHES, *WITH_VALUE, "--help"]
+            known = [*SWITCHES, *OURS, *WITH_VALUE, "--help"]
             raise UserError(f"unknown option {word}{nearest(word, known)}")
         else:
             raise UserError(f"expected KEY=VALUE, got {word}; type for instance seed=1")

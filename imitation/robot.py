@@ -5,6 +5,7 @@ from typing import Protocol, runtime_checkable
 
 import numpy as np
 
+from imitation.approach import Approach, lead
 from imitation.arrays import Array, Image
 from imitation.clock import Clock, SimulatedClock, WallClock
 from imitation.guard import Guard
@@ -162,9 +163,18 @@ class Robot:
     Its clock is the wall's when its arm or its camera lives in real time.
     """
 
-    def __init__(self, arm: Arm, camera: Camera, guard: Guard, home: Array, period_ns: int) -> None:
+    def __init__(
+        self,
+        arm: Arm,
+        camera: Camera,
+        guard: Guard,
+        home: Array,
+        period_ns: int,
+        approach: Approach | None = None,
+    ) -> None:
         self.arm, self.camera, self.guard, self.home = arm, camera, guard, home
         self.period_ns, self.live = period_ns, arm.live or camera.live
+        self._approach = approach
         self._clock: Clock = (WallClock if self.live else SimulatedClock)(period_ns)
         self._time_ns = 0
         self._velocity, self._posture = np.zeros(len(home)), home  # as sensed last
@@ -187,9 +197,14 @@ class Robot:
         return self._clock.late
 
     def reset(self, posture: Array | None = None) -> Observation:
-        """Be at rest at `posture` [rad] (home when None); an episode begins."""
+        """Be at rest at `posture` [rad] (home when None); an episode begins.
+
+        A real arm is led there from wherever it is.
+        """
         start = self.home if posture is None else posture
         self.arm.reset(self.guard.posture_within_limits(start))
+        if self._approach:
+            lead(self.arm, self.guard, start, self.period_ns, self._approach)
         self._velocity = np.zeros(len(self.home))
         self._time_ns = self._clock.begin()
         self.camera.reset(self._time_ns)

@@ -195,5 +195,5 @@ def refuse_crashed(statuses: Sequence[int]) -> None:
         if status == Status.CRASHED:
             raise DeviceError(
                 f"motor {motor} has collided (status {status}): free the arm, then type "
-                "robot.arm.unblock=true"
+                "robot.arm.driving.unblock=true"
             )

@@ -1,0 +1,59 @@
+"""Leads a real arm to where an episode begins, slowly and within the guard."""
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from imitation.arrays import Array
+from imitation.clock import WallClock
+from imitation.device import DeviceError
+from imitation.dynamics import able_to_stop
+from imitation.guard import Guard
+
+if TYPE_CHECKING:
+    from imitation.robot import Arm
+
+
+@dataclass(frozen=True)
+class Approach:
+    """How a real arm is led to a posture.
+
+    Args:
+        share: Of the joints' largest speed, at most.
+        tolerance: The arm is there when every joint is nearer than this [rad].
+        patience: An arm that has got no nearer for so long is stuck [s].
+    """
+
+    share: float
+    tolerance: float
+    patience: float
+
+
+def lead(arm: "Arm", guard: Guard, target: Array, period_ns: int, how: Approach) -> None:
+    """Lead `arm` to rest at `target` [rad].
+
+    Raises:
+        DeviceError: The guard does not let it get there, or the arm does not move.
+    """
+    clock, period = WallClock(period_ns), period_ns / 1e9
+    clock.begin()
+    # Planned ahead of what is sensed: a real arm senses itself late.
+    planned, before = arm.read().posture, np.zeros(len(target))
+    best, waited = np.inf, 0.0
+    while (away := float(np.abs(target - arm.read().posture).max())) > how.tolerance or (
+        before.any()
+    ):
+        best, waited = (away, 0.0) if away < best - how.tolerance / 10 else (best, waited + period)
+        if waited > how.patience:
+            raise DeviceError(
+                f"the arm gets no nearer than {away:.2f} rad to its start posture: lead it there "
+                "by hand, or put away what is in its way"
+            )
+        to_go = target - planned
+        wanted = able_to_stop(to_go / period, to_go, guard.acceleration, period)
+        excess = float(np.max(np.abs(wanted) / (guard.speed * how.share)))
+        limited, _ = guard.limit(wanted / max(excess, 1.0), before, planned, period)
+        arm.move(limited, None, period)
+        planned, before = planned + limited * period, limited
+        clock.tick()
