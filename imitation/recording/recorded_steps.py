@@ -12,7 +12,7 @@ from imitation.guard import REASONS
 from imitation.recording import messages
 from imitation.recording.mcap_recording import Recording
 from imitation.recording.step_messages import Message, Topic
-from imitation.robot import SECOND, Observation
+from imitation.robot import SECOND, Observation, Shot
 from imitation.sample import RecordedStep
 
 SENSES = {
@@ -133,21 +133,26 @@ def _step(
     said: Sequence[Message], frames: Frames, begins: bool, trouble: str | None
 ) -> RecordedStep:
     told: dict[str, Any] = {}
+    came = []  # when the frames of this step were captured [ns]
     for message in said:
         if message.topic == "/camera/image":
             frames.add(message)
+            came.append(message.time_ns)
         elif message.topic in SENSES:
             told[message.topic] = messages.decoded(message.data, SENSES[message.topic])
     if missing := NEEDED - told.keys():
         at = said[-1].time_ns / SECOND
         raise ValueError(f"the step at {at:.3f} s lacks {', '.join(sorted(missing))}")
     sent = told["/joint_command/sent"].velocity
-    return RecordedStep(_observation(told, frames), sent, begins, trouble)
+    return RecordedStep(_observation(told, frames, came, begins), sent, begins, trouble)
 
 
-def _observation(told: dict[str, Any], frames: Frames) -> Observation:
+def _observation(
+    told: dict[str, Any], frames: Frames, came: Sequence[int], begins: bool
+) -> Observation:
     joints, used, noise = told["/joint_states"], told["/camera/used"], told.get("/hand/noise")
     captured = messages.time_of(used)
+    skipped = [(at, *frames.captured_at(at)) for at in came if at != captured]
     frame, jpeg = frames.captured_at(captured)
     opening, proximity, touching = told["/gripper"].data
     gaze = told["/gaze"].data
@@ -164,4 +169,6 @@ def _observation(told: dict[str, Any], frames: Frames) -> Observation:
         proximity=float(proximity),
         touching=bool(touching),
         jpeg=jpeg,
+        skipped=tuple(Shot(one, at, gaze, jpeg=kept) for at, one, kept in skipped),
+        begins=begins,
     )

@@ -80,10 +80,10 @@ def decoded(jpeg: bytes) -> Image:
     Raises:
         ValueError: It is damaged.
     """
-    picture = cv2.imdecode(np.frombuffer(jpeg, dtype=np.uint8), cv2.IMREAD_COLOR)
+    picture = cv2.imdecode(np.frombuffer(jpeg, dtype=np.uint8), cv2.IMREAD_COLOR_RGB)
     if picture is None:
         raise ValueError("a recorded frame is no JPEG picture: the recording is damaged")
-    return np.asarray(cv2.cvtColor(picture, cv2.COLOR_BGR2RGB), dtype=np.uint8)
+    return np.asarray(picture, dtype=np.uint8)
 
 
 def pictures(film: Any, start: float, end: float | None) -> Iterator[tuple[int, Image]]:

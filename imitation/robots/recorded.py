@@ -44,7 +44,9 @@ class Tape:
 
     def _forward(self, within: bool = False) -> None:
         if self._next is None or (within and self._next.begins):
-            same = {**self.now.seen.__dict__, "time_ns": self.now.seen.time_ns + self._period_ns}
+            seen, over = self.now.seen, self._next is None
+            later = {"time_ns": seen.time_ns + self._period_ns, "skipped": (), "ended": over}
+            same = {**seen.__dict__, "begins": False, **later}
             self.now = replace(self.now, seen=Unrecorded(**same))
             return
         self.now, self._next = self._next, next(self._steps, None)

@@ -31,10 +31,13 @@ def demo_record(
     watching: Watching,
     rest: Array,
 ) -> Iterator[Sample]:
-    """Rest at the posture `rest` (n_joints,) [rad] and watch until the demonstration is over."""
+    """Rest at the posture `rest` (n_joints,) [rad] and watch until the demonstration is over.
+
+    A film that ends is the end of the demonstration too.
+    """
     seen = robot.reset(rest)
     begun = shown = seen.time
-    while seen.time - begun < watching.duration:
+    while seen.time - begun < watching.duration and not seen.ended:
         percept = perception.perceive(seen)
         captured = percept.time_ns / SECOND
         before = states.states[-1:]
