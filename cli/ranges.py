@@ -86,6 +86,7 @@ RANGES: dict[str, dict[str, Any]] = {
         "value": ByteRange,
         "min_pixels": Count,
         "least_patch": Share,
+        "length": Positive | None,
         "threshold": Annotated[int, Within(ge=0, le=255)],
         "blur": Positive,
         "keep": NotNegative,

@@ -62,23 +62,38 @@ class ColourDetector:
 
 
 @dataclass(frozen=True)
-class PatchDetector(ColourDetector):
-    """Finds the large patches of one colour; specks of it are no hand.
+class HandDetector(ColourDetector):
+    """Finds the large patches of one colour, and of an arm that reaches in, only its hand.
 
     Args:
         least_patch: A connected patch smaller than this share of the largest is a speck [0..1].
+        length: What of a patch is farther than this from its end that lies farthest from the
+            edge it comes in by is forearm [px]; None: there are none, or they count.
     """
 
     least_patch: float
+    length: float | None
 
     def mask(self, frame: Image) -> Mask:
-        """Pixels of the hand's colour in `frame`, without specks, (height, width)."""
+        """Pixels of the hand in `frame`, without specks and forearms, (height, width)."""
         found = super().mask(frame)
-        _, patches, told, _ = cv2.connectedComponentsWithStats(found.view(np.uint8))
+        count, patches, told, _ = cv2.connectedComponentsWithStats(found.view(np.uint8))
         sizes = told[:, cv2.CC_STAT_AREA]
-        sizes[0] = 0  # all that is not found
-        large = (sizes > 0) & (sizes >= self.least_patch * sizes.max())
-        return np.asarray(large[patches], dtype=bool)
+        hands = np.zeros_like(found)
+        for number in range(1, count):  # 0 is all that was not found
+            if sizes[number] >= self.least_patch * sizes[1:].max():
+                hands |= self._hand_of(patches == number)
+        return hands
+
+    def _hand_of(self, patch: Mask) -> Mask:
+        edge = patch.copy()
+        edge[1:-1, 1:-1] = False
+        if self.length is None or not edge.any():
+            return patch
+        entry = np.argwhere(edge).mean(axis=0)
+        rows, columns = np.indices(patch.shape)
+        inwards = np.where(patch, np.hypot(rows - entry[0], columns - entry[1]), 0.0)
+        return np.asarray(patch & (inwards >= inwards.max() - self.length))
 
 
 @dataclass

@@ -1,5 +1,7 @@
 """What of a frame is the hand."""
 
+import dataclasses
+
 import cv2
 import numpy as np
 import pytest
@@ -8,7 +10,7 @@ import yaml
 from cli.keys import CONF
 from imitation.arrays import Image
 from imitation.robot import Observation
-from imitation.vision import ColourDetector, MovementDetector, PatchDetector
+from imitation.vision import ColourDetector, HandDetector, MovementDetector
 
 RED, GREEN, BLUE, GREY = (255, 0, 0), (0, 255, 0), (0, 0, 255), (128, 128, 128)
 
@@ -91,18 +93,33 @@ def patches(*sizes: int) -> Image:
 
 
 def test_specks_beside_a_large_patch_are_no_hand():
-    detector = PatchDetector((170, 10), (100, 255), (80, 255), min_pixels=1, least_patch=0.3)
+    detector = HandDetector(
+        (170, 10), (100, 255), (80, 255), min_pixels=1, least_patch=0.3, length=None
+    )
     assert detector.mask(patches(10, 5, 8)).sum() == 10 * 10 + 8 * 8
     assert detector.mask(patches(5)).sum() == 25
     assert not detector.mask(patches()).any()
     assert len(detector.hand_pixels(patches(10, 2))) == 100
 
 
-def skin_detector() -> PatchDetector:
+def test_of_an_arm_that_reaches_in_only_the_hand_is_seen():
+    frame = np.full((120, 160, 3), GREY, dtype=np.uint8)
+    frame[50:60, 60:] = RED  # an arm from the right edge
+    frame[20:30, 20:80] = RED  # another that comes in by no edge
+    detector = HandDetector((170, 10), (100, 255), (80, 255), 1, least_patch=0.3, length=30)
+    found = np.argwhere(detector.mask(frame))
+    arm, whole = found[found[:, 0] > 40], found[found[:, 0] < 40]
+    assert arm[:, 1].min() == 60 and arm[:, 1].max() == pytest.approx(90, abs=1)
+    assert len(whole) == 10 * 60
+    all_counts = dataclasses.replace(detector, length=None)
+    assert all_counts.mask(frame).sum() == 10 * 100 + 10 * 60
+
+
+def skin_detector() -> HandDetector:
     with (CONF / "vision" / "skin.yaml").open() as file:
         node = yaml.safe_load(file)
     del node["_target_"]
-    return PatchDetector(**node)
+    return HandDetector(**node)
 
 
 # Photographed skin from very light to very dark, in plain light [RGB].
