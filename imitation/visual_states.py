@@ -24,7 +24,7 @@ class Resting:
 
     dwell: float  # one area wins, and the hand rests, for this long [s]
     still: float  # resting: seen this near to the middle of the places seen meanwhile [px]
-    hysteresis: float  # an area wins from another when it shows this much more [share of the hand]
+    hysteresis: float  # an area wins from another by this much [share of what both show]
     lost: float  # a hand unseen for longer has left [s]
 
 
@@ -68,8 +68,9 @@ class VisualStates:
         strongest = int(row), int(column)
         if self._area is None:
             return strongest
-        lead = visual_input[strongest] - visual_input[self._area]
-        return strongest if lead > self.resting.hysteresis else self._area
+        first, second = visual_input[strongest], visual_input[self._area]
+        wins = first - second > self.resting.hysteresis * (first + second)
+        return strongest if wins else self._area
 
     def _new_state(self, time: float) -> VisualState | None:
         if self._area is None or time - self._since < self.resting.dwell:

@@ -50,7 +50,8 @@ def demo_record(
         sensed, applied = robot.step(command)
         yield Sample(seen, percept, decision, command, applied, events)
         shown = captured if percept.hand is not None else shown
-        if len(states.states) >= 2 and seen.time - shown > watching.gone:
+        left = len(states.states) >= 2 and seen.time - shown > watching.gone
+        if left or seen.ended:
             return
         seen = sensed
 
