@@ -33,7 +33,7 @@ def demo_record(
 ) -> Iterator[Sample]:
     """Rest at the posture `rest` (n_joints,) [rad] and watch until the demonstration is over.
 
-    A film that ends is the end of the demonstration too.
+    A film that ends is its end too.
     """
     seen = robot.reset(rest)
     begun = shown = seen.time
@@ -50,8 +50,7 @@ def demo_record(
         sensed, applied = robot.step(command)
         yield Sample(seen, percept, decision, command, applied, events)
         shown = captured if percept.hand is not None else shown
-        left = len(states.states) >= 2 and seen.time - shown > watching.gone
-        if left or seen.ended:
+        if len(states.states) >= 2 and seen.time - shown > watching.gone:
             return
         seen = sensed
 
