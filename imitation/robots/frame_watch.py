@@ -37,6 +37,8 @@ class FrameWatch:
         DeviceError: The device cannot be opened.
     """
 
+    ended = False  # a film is over
+
     def __init__(self, device: str | int, develop: Development, patience: float) -> None:
         self._device, self._develop = device, develop
         self._patience_ms = round(1000 * patience)
@@ -52,11 +54,6 @@ class FrameWatch:
         self._thread = threading.Thread(target=self._run, args=(source,), name="camera")
         self._thread.daemon = True
         self._thread.start()
-
-    @property
-    def ended(self) -> bool:
-        """Whether no other frame will come."""
-        return not self._thread.is_alive()
 
     def take(self) -> list[Taken]:
         """Every frame that came since this was last asked."""
@@ -108,6 +105,7 @@ class FrameWatch:
                 break
             self._keep(picture)
         film.release()
+        self.ended = True
 
     def _keep(self, picture: Image) -> None:
         now = time.monotonic_ns()
