@@ -15,7 +15,7 @@ AT_HOME = {
     "hydra": "cli.",
     "omegaconf": "cli.",
     "pydantic": "cli.",
-    "yaml": "cli.",
+    "yaml": ("cli.", "imitation.recording.rerun_view"),
     "rich": "cli.",
     "pybullet": "imitation.robots.bullet.world",
     "pybullet_data": "imitation.robots.bullet.world",

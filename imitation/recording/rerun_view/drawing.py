@@ -1,19 +1,17 @@
 """Draws recorded steps in Rerun, as columns on the run's own clock."""
 
 import itertools
-import tempfile
 from collections.abc import Sequence
-from pathlib import Path
 from typing import Any, Literal
 
 import numpy as np
-import pyarrow as pa  # type: ignore[import-untyped]
 import rerun as rr
-from rerun.urdf import UrdfTree
 
 from imitation.recording import messages
-from imitation.recording.picture_columns import Batch, Overview, Times, learned_places
-from imitation.recording.rerun_view.panels import TIMELINE, fields
+from imitation.recording.picture_columns import Batch, Overview, learned_places
+from imitation.recording.rerun_view.body_drawing import BodyDrawing
+from imitation.recording.rerun_view.columns import send
+from imitation.recording.rerun_view.panels import fields
 
 GUIDE = """# What is what
 
@@ -58,7 +56,8 @@ class Drawing:
     """
 
     def __init__(self, shown: Overview) -> None:
-        self._shown, self._arm = shown, _urdf(shown.urdf)
+        self._shown = shown
+        self._body = BodyDrawing(shown) if shown.urdf else None
         self._learned: list[tuple[float, float]] = []
 
     def draw_constants(self, stream: rr.RecordingStream) -> None:
@@ -93,8 +92,8 @@ class Drawing:
             first = 1 if entity.endswith("noise_level") else 0
             colours = list(itertools.islice(itertools.cycle(COLOURS), first, first + len(names)))
             log(entity, rr.SeriesLines(names=names, colors=colours))
-        if self._arm:
-            self._arm.log_urdf_to_recording(stream)
+        if self._body:
+            self._body.draw_constants(stream)
 
     def draw(self, stream: rr.RecordingStream, batch: Batch) -> None:
         """Draw some steps."""
@@ -102,8 +101,8 @@ class Drawing:
         self._draw_fields(stream, batch)
         self._draw_curves(stream, batch)
         self._draw_events(stream, batch)
-        if self._arm:
-            self._draw_arm(stream, self._arm, batch)
+        if self._body:
+            self._body.draw(stream, batch)
 
     def _draw_field(self, stream: rr.RecordingStream, entity: str) -> None:
         lines = (np.array(self._shown.grid.lines) / self._shown.grid.tile).tolist()
@@ -183,26 +182,6 @@ class Drawing:
             )
             send(stream, "guard" if guard else "events", np.array(times), text)
 
-    def _draw_arm(self, stream: rr.RecordingStream, arm: UrdfTree, batch: Batch) -> None:
-        postures = batch.vectors("/joint_states", "position")
-        names = [list(self._shown.topics["/joint_states"].names)] * len(postures)
-        told = arm.compute_joint_transform_batches(pa.array(names), pa.array(postures.tolist()))
-        parts = told.flatten()
-        times = batch.times("/joint_states").repeat(postures.shape[1])
-        transforms = rr.Transform3D.columns(
-            translation=np.array(parts.field("translation").to_pylist()),
-            quaternion=np.array(parts.field("quaternion").to_pylist()),
-            parent_frame=parts.field("parent_frame").to_pylist(),
-            child_frame=parts.field("child_frame").to_pylist(),
-        )
-        send(stream, "arm/joints", times, transforms)
-
-
-def send(stream: rr.RecordingStream, entity: str, times_ns: Times, columns: Any) -> None:
-    """Send the columns of an entity on the run's own clock."""
-    clock = rr.TimeColumn(TIMELINE, duration=times_ns.astype("timedelta64[ns]"))
-    rr.send_columns(entity, [clock], columns, recording=stream)
-
 
 def short(names: Sequence[str]) -> list[str]:
     """Names without the words that all of them begin or end with."""
@@ -221,12 +200,3 @@ def image_format(
     return rr.components.ImageFormat(
         width=width, height=height, color_model=colours, channel_datatype="U8"
     )
-
-
-def _urdf(text: bytes | None) -> UrdfTree | None:
-    if text is None:
-        return None
-    with tempfile.TemporaryDirectory() as folder:
-        path = Path(folder) / "arm.urdf"
-        path.write_bytes(text)
-        return UrdfTree.from_file_path(path, "arm")

@@ -1,0 +1,100 @@
+"""The arm with its fingers, and the object it handles, in three dimensions."""
+
+import tempfile
+import xml.etree.ElementTree as ElementTree
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pyarrow as pa  # type: ignore[import-untyped]
+import rerun as rr
+import yaml
+from rerun.urdf import UrdfTree
+
+from imitation.arrays import Array
+from imitation.recording.picture_columns import Batch, Overview
+from imitation.recording.rerun_view.columns import send
+
+OBJECT = "arm/object"
+
+
+class BodyDrawing:
+    """Draws the arm of a run as its URDF, which must be attached, and the object if there is one.
+
+    Args:
+        shown: What there is to show.
+    """
+
+    def __init__(self, shown: Overview) -> None:
+        assert shown.urdf is not None
+        self._tree = _tree(shown.urdf)
+        self._joints = list(shown.topics["/joint_states"].names)
+        told = yaml.safe_load(shown.attachments.get("config.yaml", b"")) or {}
+        fingers = told.get("robot", {}).get("arm", {}).get("fingers") or []
+        self._fingers = _ranges(shown.urdf, fingers)
+        self._object: dict[str, Any] | None = told.get("object")
+
+    def draw_constants(self, stream: rr.RecordingStream) -> None:
+        """Draw what does not change."""
+        self._tree.log_urdf_to_recording(stream)
+        if self._object:
+            look = rr.Cylinders3D(
+                lengths=[self._object["height"]],
+                radii=[self._object["radius"]],
+                colors=[[round(255 * part) for part in self._object["colour"]]],
+                fill_mode="solid",
+            )
+            stream.log(OBJECT, look, static=True)
+
+    def draw(self, stream: rr.RecordingStream, batch: Batch) -> None:
+        """Draw some steps."""
+        angles = np.hstack((batch.vectors("/joint_states", "position"), self._opened(batch)))
+        names = [[*self._joints, *self._fingers]] * len(angles)
+        told = self._tree.compute_joint_transform_batches(
+            pa.array(names), pa.array(angles.tolist())
+        )
+        parts = told.flatten()
+        transforms = rr.Transform3D.columns(
+            translation=np.array(parts.field("translation").to_pylist()),
+            quaternion=np.array(parts.field("quaternion").to_pylist()),
+            parent_frame=parts.field("parent_frame").to_pylist(),
+            child_frame=parts.field("child_frame").to_pylist(),
+        )
+        times = batch.times("/joint_states").repeat(angles.shape[1])
+        send(stream, "arm/joints", times, transforms)
+        if "/truth/object" in batch:
+            poses = [message.pose for message in batch.messages("/truth/object")]
+            at = [(pose.position.x, pose.position.y, pose.position.z) for pose in poses]
+            turns = [pose.orientation for pose in poses]
+            where = rr.Transform3D.columns(
+                translation=at,
+                quaternion=[(turn.x, turn.y, turn.z, turn.w) for turn in turns],
+            )
+            send(stream, OBJECT, batch.times("/truth/object"), where)
+
+    def _opened(self, batch: Batch) -> Array:
+        """Angle of each finger, (n, fingers) [rad]."""
+        opening = batch.vectors("/gripper")[:, :1]
+        closed, opened = np.array(list(self._fingers.values())).reshape(-1, 2).T
+        return np.asarray(closed + opening * (opened - closed))
+
+
+def _tree(urdf: bytes) -> UrdfTree:
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "arm.urdf"
+        path.write_bytes(urdf)
+        return UrdfTree.from_file_path(path, "arm")
+
+
+def _ranges(urdf: bytes, joints: list[str]) -> dict[str, tuple[float, float]]:
+    """Lower and upper limit of some joints of a URDF [rad]."""
+    limits = {
+        node.attrib["name"]: node.find("limit")
+        for node in ElementTree.fromstring(urdf).iter("joint")
+    }
+    found = {}
+    for name in joints:
+        limit = limits[name]
+        assert limit is not None
+        found[name] = (float(limit.attrib["lower"]), float(limit.attrib["upper"]))
+    return found
