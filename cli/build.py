@@ -107,6 +107,8 @@ class Bench:
             "demonstrator": self.demonstrator,
         }
         camera = make_offered(_plain(self.cfg["camera"], "size", "focal_px", "gaze"), offered)
+        if (neck := self.cfg.get("neck")) and not self.cfg["dry_run"]:
+            camera = make(neck, camera=camera, gaze=self.cfg["camera"]["gaze"])
         guard = self._guard(arm.body)
         approach = Approach(**node["approach"]) if arm.live else None
         return Robot(arm, camera, guard, self.guided.mean(axis=0), self.period_ns, approach)

@@ -18,6 +18,7 @@ from cli.schema import COMMANDS, Target
 # Given by cli/build.py when asked for.
 SUPPLIED = {
     "arm",
+    "camera",
     "space",
     "reference",
     "gaze",

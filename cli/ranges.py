@@ -20,6 +20,7 @@ from cli.schema import (
     Whole,
 )
 
+Pulse = Annotated[int, Within(ge=500, le=2500)]  # [us]
 Byte = Annotated[int, Within(ge=0, le=255)]
 
 
@@ -62,6 +63,16 @@ class Sensing(Section):
     close: Byte
     reach: Positive
     pressed: Byte
+
+
+class Servo(Section):
+    """`neck.pan` and `neck.tilt`."""
+
+    channel: Annotated[int, Within(ge=0, le=31)]
+    centre: Pulse
+    per_radian: float
+    lower: Pulse
+    upper: Pulse
 
 
 RANGES: dict[str, dict[str, Any]] = {
@@ -124,6 +135,14 @@ RANGES: dict[str, dict[str, Any]] = {
         "place": Pair,
         "at": NotNegative,
         "stay": Positive | None,
+    },
+    "neck": {
+        "baud": Literal[2400, 9600, 38400, 115200],
+        "pan": Servo,
+        "tilt": Servo,
+        "speed": Positive,
+        "timeout": Positive,
+        "watch": Positive,
     },
     "controller": {
         "bandwidth": Positive,

@@ -159,6 +159,7 @@ class Common(Section):
     confirmed: bool
     recording: Recording
     camera: Camera
+    neck: Target | None = None  # of a real camera
     robot: Robot
     vision: Target
     dynamics: Dynamics
