@@ -44,7 +44,7 @@ EXAMPLES = {
     ],
     "demo-record": [
         ("imitate demo-record", "watch a hand take a can, carry it by and let it go"),
-        ("imitate demo-record states.dwell=0.3", "shorter rests are states too"),
+        ("imitate demo-record states.dwell=0.2", "shorter rests are states too"),
     ],
     "figure": [
         ("imitate figure fig3a", "all seeds; exit code 1 when a claim fails"),

@@ -1,7 +1,7 @@
 """From what is seen of a hand to visual states: where it rests, in which area, since when (IV)."""
 
 from collections import deque
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -14,7 +14,7 @@ class VisualState:
     """An area in which the hand rested."""
 
     area: Area
-    place: Array  # where it was seen resting, (2,) [px of visual space]
+    place: Array  # median of where it was seen resting, (2,) [px of visual space]
     time: float  # when the area began to win [s]
 
 
@@ -39,6 +39,7 @@ class VisualStates:
         self.resting = resting
         self.states: list[VisualState] = []
         self._seen: deque[tuple[float, Array]] = deque()  # time [s] and place [px], for `dwell`
+        self._rested: list[Array] = []  # places of the newest state's rest, (2,) [px]
         self._area: Area | None = None  # the one that wins
         self._since = 0.0  # when it began to [s]
 
@@ -81,8 +82,12 @@ class VisualStates:
             return None
         if self.states:
             last = self.states[-1]
-            moved = np.linalg.norm(middle - last.place) > self.resting.still
-            if self._area == last.area or not moved:
+            if np.linalg.norm(middle - last.place) <= self.resting.still:
+                self._rested.append(places[-1])
+                self.states[-1] = replace(last, place=np.median(self._rested, axis=0))
                 return None
+            if self._area == last.area:
+                return None
+        self._rested = list(places)
         self.states.append(VisualState(self._area, middle, self._since))
         return self.states[-1]

@@ -9,7 +9,7 @@ from imitation.visual_field import VisualField
 from imitation.visual_states import Resting, VisualStates
 
 FIELD = VisualField("right_4x4", (160, 120), rows=4, columns=4, left=40.0)
-RESTING = Resting(dwell=0.5, still=4.0, hysteresis=0.3, lost=0.2)
+RESTING = Resting(dwell=0.4, still=4.0, hysteresis=0.3, lost=0.2)
 PERIOD = 0.04  # [s]
 DISC = np.array([(x, y) for x in range(-6, 7) for y in range(-6, 7) if x * x + y * y <= 36])
 WAITING, TAKING, BY, LETTING_GO = (20, 75), (85, 75), (115, 45), (145, 75)
@@ -54,7 +54,7 @@ def test_an_action_is_the_places_where_the_hand_rests(seed):
     states = watched(*action(), seed=seed)
     assert [state.area for state in states] == [(2, 0), (2, 2), (1, 3), (2, 4)]
     for state, place in zip(states, [WAITING, TAKING, BY, LETTING_GO], strict=True):
-        assert state.place == pytest.approx(place, abs=1.0)
+        assert state.place == pytest.approx(place, abs=0.5)
 
 
 def test_a_state_begins_when_its_area_does():
@@ -99,10 +99,10 @@ def test_an_area_visited_again_after_another_is_a_state_again():
 
 
 def test_a_hand_lost_for_a_moment_goes_on_resting_and_one_that_left_does_not():
-    blink = rest(BY, 0.4), unseen(0.12), rest(BY, 0.4)
+    blink = rest(BY, 0.3), unseen(0.12), rest(BY, 0.3)
     (state,) = watched(*blink)
     assert state.time == 0
-    assert watched(rest(BY, 0.4), unseen(1.0), rest(BY, 0.4)) == []
+    assert watched(rest(BY, 0.3), unseen(1.0), rest(BY, 0.3)) == []
 
 
 def test_a_state_is_told_as_soon_as_the_hand_has_rested_long_enough():

@@ -33,7 +33,7 @@ def test_each_state_is_told_while_the_hand_rests_there(shown):
     told = events(samples)
     assert [event.facts["area"] for _, event in told] == [list(state.area) for state in states]
     for (time, _), state in zip(told, states, strict=True):
-        assert state.time + 0.4 < time < state.time + 1.5
+        assert state.time + 0.3 < time < state.time + 1.5
 
 
 def test_the_arm_rests_all_the_while(shown):
