@@ -45,6 +45,8 @@ EXAMPLES = {
     "demo-record": [
         ("imitate demo-record", "watch a hand take a can, carry it by and let it go"),
         ("imitate demo-record states.dwell=0.2", "shorter rests are states too"),
+        ("imitate demo-record camera=video camera.path=FILM vision=skin", "a person in a film"),
+        ("imitate demo-record camera=webcam camera.device=0 vision=skin", "a person here and now"),
     ],
     "figure": [
         ("imitate figure fig3a", "all seeds; exit code 1 when a claim fails"),
