@@ -43,7 +43,7 @@ check: $(READY) ## ruff, mypy, who imports whom
 bench: $(READY) ## ratios of speed and memory against their bounds, into data/bench.json
 	$(RUN)/python -m tests.benchmarks
 
-results: $(READY) ## the numbers of docs/results.md over 20 untuned seeds; about half an hour
+results: $(READY) ## the numbers of docs/results.md over 20 untuned seeds; about an hour
 	$(RUN)/python -m cli.results
 
 fig1 fig2 fig4 fig5: $(READY) ## a figure of the paper with its claims, all seeds
