@@ -73,9 +73,9 @@ class TimedSequence:
         key = self.after(self.keys[-1] if self.keys else (), state)
         if key in self.keys:
             raise ValueError(
-                f"states {self.keys.index(key) + 1} and {len(self.keys) + 1} are the same after "
-                f"the same {self.context} before them, so that what follows cannot be told; "
-                f"keep more of them with sequence.context={self.context + 1}"
+                f"states {self.keys.index(key) + 1} and {len(self.keys) + 1} are the same, and so "
+                f"are the {self.context} before them: what follows cannot be told; keep more of "
+                f"them with sequence.context={self.context + 1}"
             )
         if self.keys:
             self._learn_transition(state, time - self._time)
