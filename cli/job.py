@@ -1,6 +1,8 @@
 """One job of a command: from the composed configuration to an exit code, never an exception."""
 
 import json
+import os
+import sys
 import traceback
 from collections.abc import Callable
 from pathlib import Path
@@ -38,6 +40,9 @@ def attempt(action: Callable[[], int]) -> int:
         except KeyboardInterrupt:
             _say("interrupted")
             code = INTERRUPTED
+        except BrokenPipeError:  # whoever read our output, such as head, has seen enough
+            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+            code = DONE
         except Exception as error:
             code = explain(error)
     codes.append(code)

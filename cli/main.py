@@ -127,6 +127,27 @@ def emulate(
 
 
 @app.command()
+def inspect(
+    run: Annotated[Path, typer.Argument(help="A run's folder, an .mcap of any program, a bag.")],
+    as_json: Annotated[bool, typer.Option("--json", help="For scripts.")] = False,
+) -> None:
+    """Tell on one screen what a recording holds, whether it is whole, and what to type next."""
+    from cli.inspect import inspect
+    from cli.job import attempt
+
+    raise typer.Exit(attempt(lambda: inspect(run, as_json)))
+
+
+@app.command()
+def recover(run: Recorded) -> None:
+    """Make the recording of a killed run whole again; the cut one is kept beside it."""
+    from cli.job import attempt
+    from cli.recover import recover_run
+
+    raise typer.Exit(attempt(lambda: recover_run(run)))
+
+
+@app.command()
 def verify(
     run: Recorded,
     with_: Annotated[

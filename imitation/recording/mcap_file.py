@@ -1,8 +1,10 @@
 """A ROS 2 bag in an MCAP file: how a run is written."""
 
+import fcntl
 import json
 import time
 from collections.abc import Iterable, Mapping
+from contextlib import suppress
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any, BinaryIO
@@ -11,14 +13,13 @@ from mcap.writer import CompressionType
 
 from imitation.recording import messages
 from imitation.recording.digest import Digest
-from imitation.recording.mcap_quick import QuickWriter
+from imitation.recording.mcap_quick import NO_LIMIT, QuickWriter
 from imitation.recording.step_messages import Message, Topic, topics
 from imitation.robot import Body
 from imitation.sample import Sample
 from imitation.visual_field import VisualField
 
 WALL_LIMIT = 1.0  # a chunk older than this is closed, unless reproducible [s]
-NO_LIMIT = 1 << 62  # chunks are closed at the end of a step, never by their size
 MEDIA_TYPES = {".yaml": "application/yaml", ".json": "application/json", ".urdf": "application/xml"}
 
 
@@ -46,6 +47,8 @@ class McapFile:
         self._body, self._field, self._by_clock = body, field, by_clock
         self._period_ns, self._chunk_ns = period_ns, chunk_ns
         self._stream: BinaryIO = path.open("xb")
+        with suppress(OSError):  # not every file system can tell that it is being written
+            fcntl.flock(self._stream, fcntl.LOCK_EX | fcntl.LOCK_NB)
         self._writer: Any = QuickWriter(self._stream, NO_LIMIT, CompressionType.ZSTD)
         self._known: dict[str, Topic] = {}
         self._channels: dict[str, int] = {}

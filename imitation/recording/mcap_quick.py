@@ -9,6 +9,7 @@ from mcap.opcode import Opcode
 from mcap.records import MessageIndex
 from mcap.writer import Writer
 
+NO_LIMIT = 1 << 62  # chunks are closed at the end of a step, never by their size
 MESSAGE_HEAD = struct.Struct("<BQHIQQ")  # opcode, length, channel, sequence, two times
 
 

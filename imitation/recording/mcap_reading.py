@@ -16,11 +16,11 @@ from mcap.stream_reader import get_chunk_data_stream
 from mcap.writer import MCAP0_MAGIC
 from zstandard import ZstdError, frame_content_size
 
-from imitation.recording.mcap_quick import MESSAGE_HEAD
 from imitation.recording.step_messages import Message
 from imitation.robot import SECOND
 
 LARGEST_CHUNK = 2**28  # no chunk of ours comes near [bytes]
+MESSAGE_FIELDS = struct.Struct("<HIQQ")  # channel, sequence, two times; the data follows
 RECORD_HEAD = struct.Struct("<BQ")  # opcode, length
 BESIDE_MESSAGES: dict[int, Any] = {
     Opcode.HEADER: Header,
@@ -65,13 +65,18 @@ def contents(path: Path) -> Contents:
     found = Contents()
     for record in records(path, BESIDE_MESSAGES):
         found.take(record)
-    with path.open("rb") as stream:
-        stream.seek(-len(MCAP0_MAGIC), os.SEEK_END)
-        found.whole = stream.read() == MCAP0_MAGIC
+    found.whole = is_whole(path)
     if not found.whole:  # without the summary at its end, the channels stand in the chunks alone
         for _ in chunks(path, found):
             pass
     return found
+
+
+def is_whole(path: Path) -> bool:
+    """Whether an MCAP file was closed as it should be, not cut."""
+    with path.open("rb") as stream:
+        stream.seek(-len(MCAP0_MAGIC), os.SEEK_END)
+        return stream.read() == MCAP0_MAGIC
 
 
 def chunks(path: Path, found: Contents) -> Iterator[list[Message]]:
@@ -85,13 +90,24 @@ def chunks(path: Path, found: Contents) -> Iterator[list[Message]]:
         ValueError: A chunk is damaged.
     """
     for chunk in records(path, {Opcode.CHUNK: Chunk}):
-        data = unpacked(path, chunk)
-        try:
-            told = list(_messages(data, found))
-        except (KeyError, McapError, ValueError, struct.error) as error:
-            at = chunk.message_start_time / SECOND
-            raise ValueError(f"{path} is damaged at {at:.2f} s of the run: {error!r}") from error
-        yield told
+        yield [
+            Message(channel.topic, time_ns, data)
+            for channel, time_ns, data in told_in(path, chunk, found)
+        ]
+
+
+def told_in(path: Path, chunk: Chunk, found: Contents) -> list[tuple[Channel, int, bytes]]:
+    """Channel, time [ns] and data of each message in a chunk.
+
+    Raises:
+        ValueError: It is damaged.
+    """
+    data = unpacked(path, chunk)
+    try:
+        return list(_messages(data, found))
+    except (KeyError, McapError, ValueError, struct.error) as error:
+        at = chunk.message_start_time / SECOND
+        raise ValueError(f"{path} is damaged at {at:.2f} s of the run: {error!r}") from error
 
 
 def unpacked(path: Path, chunk: Chunk) -> bytes:
@@ -113,18 +129,22 @@ def unpacked(path: Path, chunk: Chunk) -> bytes:
         raise ValueError(f"{path} is damaged at {at:.2f} s of the run: {error}") from error
 
 
-def _messages(data: bytes, found: Contents) -> Iterator[Message]:
+def _messages(data: bytes, found: Contents) -> Iterator[tuple[Channel, int, bytes]]:
+    for opcode, content in parts(data):
+        if opcode == Opcode.MESSAGE:
+            channel, _, time_ns, _ = MESSAGE_FIELDS.unpack_from(content)
+            yield found.channels[channel], time_ns, content[MESSAGE_FIELDS.size :]
+        elif opcode in (Opcode.CHANNEL, Opcode.SCHEMA):
+            found.take(BESIDE_MESSAGES[opcode].read(ReadDataStream(BytesIO(content))))
+
+
+def parts(data: bytes) -> Iterator[tuple[int, bytes]]:
+    """Opcode and content of each record in an unpacked chunk."""
     at = 0
     while at < len(data):
         opcode, length = RECORD_HEAD.unpack_from(data, at)
-        start, end = at + RECORD_HEAD.size, at + RECORD_HEAD.size + length
-        if opcode == Opcode.MESSAGE:
-            _, _, channel, _, time_ns, _ = MESSAGE_HEAD.unpack_from(data, at)
-            topic = found.channels[channel].topic
-            yield Message(topic, time_ns, data[at + MESSAGE_HEAD.size : end])
-        elif opcode in (Opcode.CHANNEL, Opcode.SCHEMA):
-            found.take(BESIDE_MESSAGES[opcode].read(ReadDataStream(BytesIO(data[start:end]))))
-        at = end
+        start, at = at + RECORD_HEAD.size, at + RECORD_HEAD.size + length
+        yield opcode, data[start:at]
 
 
 def records(path: Path, kinds: Mapping[int, Any]) -> Iterator[Any]:

@@ -1,5 +1,6 @@
 """Calls `imitate` as a user would, on the ideal arm, in a folder of its own."""
 
+import sys
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -7,6 +8,8 @@ import pytest
 from typer.testing import CliRunner, Result
 
 from cli.main import app
+
+sys.path.insert(0, str(Path(__file__).parents[1] / "recording"))  # where tampering.py is
 
 
 @dataclass

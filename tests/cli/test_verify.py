@@ -1,18 +1,14 @@
 """Every run is decided anew to the last bit, and nothing in a recording can be changed unseen."""
 
 import shutil
-import sys
-from pathlib import Path
 
 import numpy as np
 import pytest
+from tampering import counts, rewrite
 
 from cli.verify import verify
 from imitation.recording import messages
 from imitation.recording.mcap_recording import Recording
-
-sys.path.insert(0, str(Path(__file__).parents[1] / "recording"))
-from tampering import counts, rewrite
 
 PLACES = 3  # that are changed on each topic
 REACH = ("reach", "robot=ideal", "reach.limit=1", "reach.required=0", "trials=2")

@@ -1,0 +1,71 @@
+"""imitate recover: the recording of a killed run made whole again."""
+
+import fcntl
+import json
+import os
+import shlex
+from pathlib import Path
+
+from rich.console import Console
+from rich.table import Table
+
+from cli.errors import DONE, UserError
+from cli.inspect import results, size
+from cli.recompute import configuration
+from cli.run import plain
+from imitation.recording.mcap_recording import Recording
+from imitation.recording.mcap_recover import Recovery, recover
+from imitation.robot import SECOND
+
+
+def recover_run(run: Path) -> int:
+    """Recover a run's recording, write its metrics.json; the exit code."""
+    recording = Recording.open(run)
+    console = Console(highlight=False, soft_wrap=True)
+    if recording.whole:
+        console.print(f"{recording.path} is whole: there is nothing to recover", markup=False)
+        return DONE
+    refuse_while_written(recording.path)
+    recovery, kept = recover(recording.path)
+    if recording.path.name == "run.mcap":
+        write_metrics(recording, recovery)
+    show(console, run, recovery, kept)
+    return DONE
+
+
+def refuse_while_written(path: Path) -> None:
+    """Raise an error when a run still writes its recording."""
+    with path.open("rb") as stream:
+        try:
+            fcntl.flock(stream, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            raise UserError(f"{path} is still being written; wait for the run's end") from None
+
+
+def write_metrics(recording: Recording, recovery: Recovery) -> None:
+    """Write metrics.json; what a run that failed told there before stays in it."""
+    told, folder = recording.metadata["run"], recording.path.parent
+    period = float(configuration(recording).get("period", 0.0))
+    content = {
+        "command": told.get("command"),
+        "seed": int(told.get("seed", 0)),
+        "wall_time_s": None,
+        **results(folder),
+        "status": "truncated",
+        "steps": recovery.steps,
+        "robot_time_s": round(recovery.last_ns / SECOND + period, 9) if recovery.steps else 0.0,
+    }
+    text = json.dumps(plain(content), indent=2, allow_nan=False, ensure_ascii=False)
+    (folder / "metrics.json").write_text(text + "\n")
+
+
+def show(console: Console, run: Path, recovery: Recovery, kept: Path) -> None:
+    """Print what was kept."""
+    table = Table(title="imitate recover", title_justify="left", show_header=False)
+    until = f"until {recovery.last_ns / SECOND:.2f} s" if recovery.steps else "none"
+    table.add_row("steps", f"{recovery.steps}, {until}")
+    if recovery.damage:
+        table.add_row("damage", recovery.damage)
+    table.add_row("the cut one", f"{os.path.relpath(kept)}, {size(kept.stat().st_size)}")
+    console.print(table)
+    console.print(f"next   imitate verify {shlex.quote(str(run))}", markup=False)
