@@ -1,10 +1,12 @@
 """One job of a command: from the composed configuration to an exit code, never an exception."""
 
+import errno
 import json
 import os
 import sys
 import traceback
 from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
 
 from hydra.core.hydra_config import HydraConfig
@@ -22,6 +24,9 @@ from imitation.device import DeviceError
 from imitation.recording.mcap_recording import RecorderError
 
 Work = Callable[[Run], Outcome]
+
+# Why a file cannot be written, when it is the disk's fault.
+DISK = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EROFS, errno.EIO)
 
 codes: list[int] = []  # exit codes of the jobs that ran in this process
 
@@ -59,6 +64,9 @@ def explain(error: Exception) -> int:
     if isinstance(error, RecorderError | DeviceError):
         _say(str(error))
         return DEVICE
+    if isinstance(error, OSError) and error.errno in DISK:
+        _say(f"{error.filename or 'the disk'} cannot be written: {error.strerror}")
+        return DEVICE
     traceback.print_exception(error)  # a bug of this program, nothing a user could mend
     return NOT_TRUE
 
@@ -71,13 +79,13 @@ def _run(command: str, cfg: Config, work: Work) -> int:
         return _finish(run, outcome)
     except KeyboardInterrupt:
         if not run.status:
-            run.write_metrics("interrupted", {})
+            _try_to_write_metrics(run, "interrupted")
         run.log.info("interrupted")
         _say(f"what was recorded until then is in {run.folder}")
         raise
     except Exception as error:
         if not run.status:
-            run.write_metrics("failed", {})
+            _try_to_write_metrics(run, "failed")
         run.log.exception("failed")
         if is_refusal(error) and not run.steps:
             run.close()
@@ -85,6 +93,11 @@ def _run(command: str, cfg: Config, work: Work) -> int:
         raise
     finally:
         run.close()
+
+
+def _try_to_write_metrics(run: Run, status: str) -> None:
+    with suppress(OSError):  # the disk may be what failed
+        run.write_metrics(status, {})
 
 
 def _finish(run: Run, outcome: Outcome) -> int:

@@ -13,24 +13,37 @@ from cli.errors import DONE, UserError
 from cli.inspect import results, size
 from cli.recompute import configuration
 from cli.run import plain
-from imitation.recording.mcap_recording import Recording
+from imitation.recording.mcap_reading import is_whole
+from imitation.recording.mcap_recording import Recording, recording_in
 from imitation.recording.mcap_recover import Recovery, recover
 from imitation.robot import SECOND
 
 
 def recover_run(run: Path) -> int:
     """Recover a run's recording, write its metrics.json; the exit code."""
-    recording = Recording.open(run)
+    path = recording_in(run)
     console = Console(highlight=False, soft_wrap=True)
-    if recording.whole:
-        console.print(f"{recording.path} is whole: there is nothing to recover", markup=False)
+    if is_good(path):
+        console.print(f"{path} is whole: there is nothing to recover", markup=False)
         return DONE
-    refuse_while_written(recording.path)
-    recovery, kept = recover(recording.path)
-    if recording.path.name == "run.mcap":
-        write_metrics(recording, recovery)
+    refuse_while_written(path)
+    recovery, kept = recover(path)
+    if path.name == "run.mcap":
+        write_metrics(Recording.open(path), recovery)
     show(console, run, recovery, kept)
     return DONE
+
+
+def is_good(path: Path) -> bool:
+    """Whether a recording is whole and nothing in it is damaged."""
+    if not is_whole(path):
+        return False
+    try:
+        for _ in Recording.open(path).chunks():
+            pass
+    except ValueError:
+        return False
+    return True
 
 
 def refuse_while_written(path: Path) -> None:

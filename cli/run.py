@@ -199,6 +199,7 @@ def plain(value: Any) -> Any:
 
 
 def _log_to(path: Path) -> logging.Logger:
+    logging.raiseExceptions = False  # a disk that is full is told by the recorder, once
     log = logging.getLogger(f"imitate.{path.parent}")
     log.setLevel(logging.INFO)
     log.propagate = False

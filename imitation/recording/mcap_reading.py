@@ -1,6 +1,5 @@
 """What an MCAP file holds, whole or cut: records and messages in the order written."""
 
-import os
 import struct
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
@@ -75,7 +74,7 @@ def contents(path: Path) -> Contents:
 def is_whole(path: Path) -> bool:
     """Whether an MCAP file was closed as it should be, not cut."""
     with path.open("rb") as stream:
-        stream.seek(-len(MCAP0_MAGIC), os.SEEK_END)
+        stream.seek(max(path.stat().st_size - len(MCAP0_MAGIC), 0))
         return stream.read() == MCAP0_MAGIC
 
 

@@ -147,6 +147,18 @@ def bounds(max_loss: float, period_ns: int) -> tuple[int, int]:
     return waiting, loss_ns - waiting * period_ns
 
 
+def recording_in(path: Path) -> Path:
+    """The file itself, or that of a run folder.
+
+    Raises:
+        ValueError: There is none.
+    """
+    file = path / "run.mcap" if path.is_dir() else path
+    if not file.is_file():
+        raise ValueError(f"no recording at {file}; give a run folder or its run.mcap")
+    return file
+
+
 class Recording:
     """A recording as it was written, whole or cut.
 
@@ -169,9 +181,7 @@ class Recording:
         Raises:
             ValueError: There is none, or it is none of this bench; the message says which.
         """
-        file = path / "run.mcap" if path.is_dir() else path
-        if not file.is_file():
-            raise ValueError(f"no recording at {file}; give a run folder or its run.mcap")
+        file = recording_in(path)
         found = contents(file)
         if found.profile != "ros2":
             raise ValueError(f"{file} is no recording of this bench: it is not a ROS 2 bag")

@@ -38,6 +38,7 @@ class Recovery:
     last_ns: int = 0  # time of the last command [ns]
     damage: str = ""  # why it ends before the cut; empty: it does not
     _digest: Digest = field(default_factory=Digest)
+    _names: set[str] = field(default_factory=set)
     _digests: int = 0
     _chunks: int = 0
     _topics: dict[int, str] = field(default_factory=dict)
@@ -51,6 +52,10 @@ class Recovery:
                 self._copy(writer, record)
         except ValueError as error:
             self.damage = str(error)
+        if not {"run", "field"} <= self._names:
+            raise ValueError(
+                f"{self.cut} is no recording of this bench: its record `run` is missing"
+            )
         if self._digests < self._chunks or not self._chunks:  # the cut took the last one
             writer.add_metadata(f"digest/{self._digests + 1:04d}", self._digest.values())
         told = {"bytes": str(self.cut.stat().st_size), "damage": self.damage}
@@ -61,6 +66,7 @@ class Recovery:
 
     def _copy(self, writer: Any, record: Any) -> None:
         if isinstance(record, Metadata):
+            self._names.add(record.name)
             self._digests += record.name.startswith("digest/")
             writer.add_metadata(record.name, record.metadata)
         elif isinstance(record, Attachment):
@@ -102,7 +108,7 @@ def recover(cut: Path) -> tuple[Recovery, Path]:
         What was kept, and where the cut recording is now.
 
     Raises:
-        ValueError: It is no MCAP file.
+        ValueError: It is no recording of this bench.
     """
     beside = cut.with_name(f"{cut.stem}.recovering")
     try:

@@ -1,0 +1,189 @@
+"""A killed run loses a second at most and is made whole again; a full disk ends a run well."""
+
+import json
+import os
+import subprocess
+import sys
+import time
+from contextlib import contextmanager
+from pathlib import Path
+
+import numpy as np
+import pytest
+from rosbags.highlevel import AnyReader
+
+from imitation.recording.mcap_recording import Recording
+
+KILLS = 30  # of each stage
+TELLING = """
+from cli.run import Run
+noted = Run._note
+def note(self, sample):
+    noted(self, sample)
+    print(sample.seen.time_ns, flush=True)
+Run._note = note
+from cli.main import main
+main()
+"""
+STAGES = {
+    "learn-map": ["learn-map"],
+    "reach": ["reach", "map={map}", "controller=noise", "trials=99"],
+    "demo-record": ["demo-record", "demo.gone=60"],
+}
+
+
+def killed(folder, words, after):
+    """Time of the last step [ns] of a run killed `after` seconds from its first step on."""
+    call = [sys.executable, "-c", TELLING, *words, "robot=ideal", f"out={folder}"]
+    process = subprocess.Popen(
+        call, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True, cwd=folder.parent
+    )
+    first = process.stdout.readline()
+    time.sleep(after)
+    process.kill()
+    told = process.stdout.read().split()
+    process.wait()
+    return int(([first, *told] if told else [first])[-1])
+
+
+def check_recovered(imitate, run):
+    """A recovered run is accepted by our programs and by others'."""
+    recorded = Recording.open(run)
+    assert recorded.whole
+    for command in ("inspect", "verify"):
+        told = imitate(command, str(run))
+        assert told.exit_code == 0, told.output
+    metrics = json.loads((run / "metrics.json").read_text())
+    assert metrics["status"] == "truncated"
+    with AnyReader([run / "run.mcap"]) as reader:
+        topics = [connection.topic for connection, _, _ in reader.messages()]
+    assert metrics["steps"] == topics.count("/joint_states")
+    call = [sys.executable, "-m", "rerun_cli", "mcap", "check", "--full", str(run / "run.mcap")]
+    assert subprocess.run(call, capture_output=True, check=False).returncode == 0
+
+
+def check_a_kill(imitate, learned, run, stage, after):
+    words = [word.format(map=learned) for word in STAGES[stage]]
+    last_ns = killed(run, words, after)
+    cut = Recording.open(run)
+    if cut.whole:
+        return  # it had come to its end
+    written = [time_ns for time_ns, _ in cut.messages("/joint_command/sent")]
+    assert last_ns - (written[-1] if written else -40_000_000) <= 1_000_000_000
+    before = (run / "run.mcap").read_bytes()
+    told = imitate("recover", str(run))
+    assert told.exit_code == 0, told.output
+    assert (run / "run.truncated.mcap").read_bytes() == before
+    again = [time_ns for time_ns, _ in Recording.open(run).messages("/joint_command/sent")]
+    assert again == written
+    check_recovered(imitate, run)
+
+
+@pytest.mark.parametrize("stage", STAGES)
+def test_a_killed_run_is_recovered(imitate, learned, tmp_path, stage):
+    check_a_kill(imitate, learned, tmp_path / "run", stage, after=0.3)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("number", range(KILLS))
+@pytest.mark.parametrize("stage", STAGES)
+def test_a_killed_run_is_recovered_whenever_it_happens(imitate, learned, tmp_path, stage, number):
+    after = np.random.default_rng(number).uniform(0.0, 1.5)
+    check_a_kill(imitate, learned, tmp_path / "run", stage, after)
+
+
+@pytest.mark.parametrize("share", [0.05, 0.8])
+def test_a_run_cut_anywhere_is_recovered(imitate, learned, tmp_path, share):
+    data = (learned / "run.mcap").read_bytes()
+    (tmp_path / "run").mkdir()
+    (tmp_path / "run" / "run.mcap").write_bytes(data[: int(share * len(data))])
+    told = imitate("recover", "run")
+    assert told.exit_code == 0, told.output
+    check_recovered(imitate, tmp_path / "run")
+
+
+@pytest.mark.parametrize("cut", [0, 100])
+def test_damage_ends_what_is_recovered(imitate, learned, tmp_path, cut):
+    whole = (learned / "run.mcap").read_bytes()
+    data = bytearray(whole[: len(whole) - cut])
+    data[len(data) // 2] ^= 0xFF
+    (tmp_path / "run").mkdir()
+    (tmp_path / "run" / "run.mcap").write_bytes(data)
+    assert imitate("inspect", "run").exit_code == 2
+    assert "damage" in imitate("recover", "run").stdout
+    check_recovered(imitate, tmp_path / "run")
+
+
+def test_what_is_no_run_of_ours_is_not_recovered(imitate, tmp_path):
+    for data in (b"hello", b"\x89MCAP0\r\n" + bytes(100)):
+        (tmp_path / "run.mcap").write_bytes(data)
+        told = imitate("recover", "run.mcap")
+        assert told.exit_code == 2 and "no recording" in told.stderr
+        assert [path.name for path in tmp_path.iterdir()] == ["run.mcap"]
+
+
+def test_a_whole_run_is_left_alone(imitate, learned):
+    before = (learned / "run.mcap").read_bytes()
+    told = imitate("recover", str(learned))
+    assert told.exit_code == 0 and "nothing to recover" in told.stdout
+    assert (learned / "run.mcap").read_bytes() == before
+
+
+def test_a_run_that_goes_on_is_not_recovered(imitate, learned, tmp_path):
+    words = ["reach", f"map={learned}", "controller=noise", "trials=99"]
+    call = [sys.executable, "-c", TELLING, *words, "robot=ideal", f"out={tmp_path / 'run'}"]
+    process = subprocess.Popen(call, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+    try:
+        for _ in range(50):
+            process.stdout.readline()
+        told = imitate("recover", "run")
+        assert told.exit_code == 2 and "still being written" in told.stderr
+    finally:
+        process.kill()
+        process.communicate()
+
+
+def test_the_next_run_writes_nothing_over(imitate, learned, tmp_path):
+    killed(tmp_path / "run", ["learn-map"], after=0.1)
+    before = (tmp_path / "run" / "run.mcap").read_bytes()
+    told = imitate("learn-map", "robot=ideal", "out=run")
+    assert told.exit_code == 2 and "out=run-2" in told.stderr
+    assert (tmp_path / "run" / "run.mcap").read_bytes() == before
+
+
+@contextmanager
+def small_disk(folder: Path, size: str):
+    """A disk of its own in the memory, where that is allowed."""
+    folder.mkdir()
+    call = ["mount", "-t", "tmpfs", "-o", f"size={size}", "tmpfs", str(folder)]
+    if os.geteuid() != 0 or subprocess.run(call, capture_output=True, check=False).returncode:
+        pytest.skip("a small disk cannot be mounted here")
+    try:
+        yield folder
+    finally:
+        subprocess.run(["umount", str(folder)], check=True)
+
+
+def check_a_full_disk(result, run):
+    assert result.returncode == 3
+    assert "cannot be written" in result.stderr and len(result.stderr.splitlines()) == 1
+    recording = Recording.open(run)
+    assert not recording.whole
+    assert sum(1 for _ in recording.messages("/joint_states")) > 20
+
+
+def test_a_full_disk_ends_the_run(tmp_path):
+    with small_disk(tmp_path / "disk", "300k") as disk:
+        call = [sys.executable, "-c", TELLING, "learn-map", "robot=ideal", f"out={disk / 'run'}"]
+        result = subprocess.run(call, capture_output=True, text=True, check=False)
+        check_a_full_disk(result, disk / "run")
+
+
+def test_a_full_quota_ends_the_run(imitate, tmp_path):
+    program = f"{sys.executable} -c '{TELLING}' learn-map robot=ideal out={tmp_path / 'run'}"
+    call = ["bash", "-c", f"ulimit -f 100; exec {program}"]
+    result = subprocess.run(call, capture_output=True, text=True, check=False)
+    check_a_full_disk(result, tmp_path / "run")
+    assert json.loads((tmp_path / "run" / "metrics.json").read_text())["status"] == "failed"
+    assert imitate("recover", "run").exit_code == 0
+    check_recovered(imitate, tmp_path / "run")
