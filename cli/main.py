@@ -131,7 +131,7 @@ def inspect(
     run: Annotated[Path, typer.Argument(help="A run's folder, an .mcap of any program, a bag.")],
     as_json: Annotated[bool, typer.Option("--json", help="For scripts.")] = False,
 ) -> None:
-    """Tell on one screen what a recording holds, whether it is whole, and what to type next."""
+    """Tell on one screen what a recording holds, and what to type next."""
     from cli.inspect import inspect
     from cli.job import attempt
 

@@ -8,7 +8,7 @@ from omegaconf import OmegaConf
 from rich.console import Console
 from rich.table import Table
 
-from cli.errors import DONE, NOT_TRUE, say
+from cli.errors import DONE, NOT_TRUE, UserError, say
 from cli.provenance import run_record
 from cli.recompute import Anew, anew, configuration
 from cli.what_if import replaced
@@ -35,7 +35,7 @@ def verify(run: Path) -> int:
             with anew(recording) as decided:
                 compare(found, decided, decided.paired())
     except Exception as error:
-        if not breaks:
+        if not breaks or isinstance(error, UserError):
             raise
         stopped = str(error)  # whatever a changed recording leads to
     told = [("steps", f"{found.steps} decided anew")]

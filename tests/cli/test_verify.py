@@ -1,5 +1,6 @@
 """Every run is decided anew to the last bit, and nothing in a recording can be changed unseen."""
 
+import re
 import shutil
 
 import numpy as np
@@ -207,17 +208,16 @@ def test_a_bad_what_if_is_one_line(imitate, reached, word, told):
 def test_nothing_that_a_recording_names_is_called_unless_we_know_it(imitate, reached, tmp_path):
     from mcap.writer import Writer
 
-    config = (
-        Recording.open(reached)
-        .attachments["config.yaml"]
-        .replace(b"imitation.vision.ColourDetector", b"os.system")
-    )
+    recorded = Recording.open(reached).attachments["config.yaml"]
+    config = re.sub(rb"_target_: imitation.vision\S*", b"_target_: os.system", recorded)
     with (tmp_path / "bad.mcap").open("wb") as stream:
         writer = Writer(stream)
         writer.start(profile="ros2")
         writer.add_metadata("run", {"command": "reach"})
         writer.add_metadata("field", {})
         writer.add_attachment(0, 0, "config.yaml", "", config)
+        schema = writer.register_schema("std_msgs/msg/Header", "ros2msg", b"")
+        writer.add_message(writer.register_channel("/camera/used", "cdr", schema), 0, b"", 0)
         writer.finish()
     result = imitate("verify", str(tmp_path / "bad.mcap"))
     assert result.exit_code == 2
