@@ -19,7 +19,7 @@ def activation(x: Array, attractors: Array, weights: Array, beta: float, power: 
     """
     if not len(attractors):
         return np.zeros(0)
-    squared = np.sum((attractors - x) ** 2, axis=1)
+    squared = ((attractors - x) ** 2).sum(axis=1)
     exponent = np.log(weights) - beta * squared ** (power / 2)
     # Shifting cancels in the ratio and keeps far attractors from underflowing to 0/0.
     basin = np.exp(exponent - exponent.max())
@@ -149,5 +149,5 @@ def able_to_stop(velocity: Array, to_go: Array, acceleration: Array, period: flo
         period: How long a velocity lasts before it can be changed [s].
     """
     allowed = fastest_stoppable(np.abs(to_go), acceleration, period)
-    excess = np.max(np.abs(velocity) / np.maximum(allowed, 1e-12))
-    return np.asarray(velocity / max(float(excess), 1.0))
+    excess = float((np.abs(velocity) / np.maximum(allowed, 1e-12)).max())
+    return np.asarray(velocity / max(excess, 1.0))

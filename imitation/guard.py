@@ -74,7 +74,7 @@ class Guard:
             return self._braked_clear(before, posture, period), ("not a number",)
         reasons: list[str] = []
         # All joints are slowed together, so that the arm keeps its direction.
-        excess = float(np.max(np.abs(wanted) / self.speed))
+        excess = float((np.abs(wanted) / self.speed).max())
         velocity = wanted / max(excess, 1.0)
         if excess > 1.0 + 1e-9:
             reasons.append("speed")
@@ -130,8 +130,8 @@ class Guard:
         # A joint that waits for the slowest may be carried beyond its own limit.
         lowest = np.minimum(self.lower + self.margin, posture) - ROUNDING
         highest = np.maximum(self.upper - self.margin, posture) + ROUNDING
-        within = np.all((lowest <= way[-1]) & (way[-1] <= highest))
-        return self._least(way) if within else -np.inf
+        within = (lowest <= way[-1]) & (way[-1] <= highest)
+        return self._least(way) if within.all() else -np.inf
 
     def _least(self, way: Array) -> float:
         assert self.surroundings is not None
@@ -139,9 +139,9 @@ class Guard:
 
     def _together_to_rest(self, velocity: Array, posture: Array, period: float) -> Array:
         """Postures of the coming periods when all joints brake in proportion, (n, n_joints)."""
-        lasting = max(float(np.max(np.abs(velocity) / (self.acceleration * period))), 1.0)
+        lasting = max(float((np.abs(velocity) / (self.acceleration * period)).max()), 1.0)
         share = np.maximum(1.0 - np.arange(np.ceil(lasting)) / lasting, 0.0)
-        return np.asarray(posture + np.cumsum(share)[:, None] * velocity * period)
+        return np.asarray(posture + share.cumsum()[:, None] * velocity * period)
 
     def _each_to_rest(self, velocity: Array, posture: Array, period: float) -> Array:
         """The same when each joint brakes as hard as it can, one coming to rest after the other."""

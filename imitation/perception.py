@@ -45,7 +45,7 @@ class Perception:
         """
         pixels = self.detector.hand_in(observation)
         places = self.space.to_visual_space(pixels, observation.frame_gaze)
-        places = places[np.isfinite(places).all(axis=1)] + observation.place_noise
+        places = places[np.isfinite(places[:, 0])] + observation.place_noise
         counting = places if attended is None else places[self.field.inside(attended, places)]
-        hand = counting.mean(axis=0) if len(counting) else None
+        hand = counting.sum(axis=0) / len(counting) if len(counting) else None
         return Percept(observation.frame_time_ns, hand, self.field.activity(places))

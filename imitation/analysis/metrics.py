@@ -1,5 +1,6 @@
 """From samples and the simulation's truth to the numbers of `metrics.json`."""
 
+import math
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 from typing import Any
@@ -117,7 +118,7 @@ class ReachMetrics:
         true_hand = self._truths.pop(sample.seen.time_ns, None)
         if true_hand is not None:
             if self._hands:
-                self._path_px += float(np.linalg.norm(true_hand - self._hands[-1]))
+                self._path_px += math.dist(true_hand, self._hands[-1])
             self._hands.append(true_hand)
         for event in sample.events:
             trial["reached"] |= event.kind == "reached"

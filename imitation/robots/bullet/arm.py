@@ -24,6 +24,7 @@ class BulletArm:
         self.world, self.body, self._stiffness = world, body, stiffness
         self.scene = BulletScene(world)
         self._expected = np.zeros(len(body.lower))  # where the commands lead [rad]
+        self._posture = self._velocity = self._expected  # as the joints are [rad], [rad/s]
         self._mark = np.zeros(3)  # where the hand's mark is [m]
 
     def reset(self, posture: Array) -> None:
@@ -31,7 +32,7 @@ class BulletArm:
         self._expected = posture.copy()
         self.world.rebuild(posture, opening=1.0)
         self.world.hold(posture)
-        self._mark = self.world.carry_mark()
+        self._sense()
 
     def move(self, velocity: Array, grip: float | None, period: float) -> Array:
         """Move with `velocity` [rad/s] for `period` [s]."""
@@ -39,19 +40,17 @@ class BulletArm:
         if not velocity.any():
             self.world.hold(self._expected)
         else:
-            posture, _ = self.world.joint_state()
-            self.world.drive(velocity + self._stiffness * (self._expected - posture))
+            self.world.drive(velocity + self._stiffness * (self._expected - self._posture))
         if grip is not None:
             self.world.grip(grip)
         self.world.advance(substeps)
         self._expected = self._expected + velocity * period
-        self._mark = self.world.carry_mark()
+        self._sense()
         return velocity
 
     def read(self) -> JointReading:
         """Sense the joints and the gripper."""
-        posture, velocity = self.world.joint_state()
-        return JointReading(posture, velocity, self.world.opening())
+        return JointReading(self._posture, self._velocity, self.world.opening())
 
     def truth(self) -> tuple[Array, Array | None]:
         """True position of the hand's mark [m]."""
@@ -60,3 +59,7 @@ class BulletArm:
     def close(self) -> None:
         """End the world."""
         self.world.close()
+
+    def _sense(self) -> None:
+        self._posture, self._velocity = self.world.joint_state()
+        self._mark = self.world.carry_mark()
