@@ -90,8 +90,8 @@ class VisualField:
     def _framed(self, places: Array) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
         """Row and column of each place, counted from 1: those outside are in the frame around."""
         x_edges, y_edges = self.edges
-        columns = np.searchsorted(x_edges, places[:, 0], side="right")
-        return np.searchsorted(y_edges, places[:, 1], side="right"), columns
+        columns = x_edges.searchsorted(places[:, 0], side="right")
+        return y_edges.searchsorted(places[:, 1], side="right"), columns
 
 
 def winner_take_all(visual_input: Array) -> Array:

@@ -120,10 +120,10 @@ class VisuoMotorMap:
             selection: V, (rows, columns).
             posture: The present posture, (n_joints,) [rad].
         """
-        areas = np.nonzero((selection > 0) & self.learned)
+        areas = ((selection > 0) & self.learned).nonzero()
         distance = self._distance(areas, posture)
         neurons = np.where(np.isnan(distance), np.inf, distance).argmin(axis=-1)
-        index = np.column_stack((*areas, neurons)).astype(np.int32)
+        index = np.array((*areas, neurons), dtype=np.int32).T
         return Attractors(self.postures[(*areas, neurons)], selection[areas], index)
 
     def nearest(self, area: Area, posture: Array) -> int:

@@ -1,5 +1,6 @@
 """An attractor made of the neighbours' postures, its aim corrected by the error that is seen."""
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -42,7 +43,7 @@ class CorrectedAim(Aim):
         self._history.note(seen.time_ns, seen.posture)
         distance = float("nan")
         if percept.hand is not None:
-            distance = float(np.linalg.norm(percept.hand - target))
+            distance = math.dist(percept.hand, target)
             if percept.time_ns != self._frame_ns:
                 self.correct(self._history.at(percept.time_ns), percept.hand)
                 self._frame_ns = percept.time_ns

@@ -1,5 +1,6 @@
 """The paper's law of reaching, and its control without attractors (section II)."""
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -88,7 +89,7 @@ class Yuragi:
             return homeostatic()
         before = self._distance
         if percept.hand is not None:
-            self._distance = float(np.linalg.norm(percept.hand - target))
+            self._distance = math.dist(percept.hand, target)
         if not np.isfinite(self._distance):
             return homeostatic()  # the hand was never seen: there is no distance yet
         capped = min(self._distance, self.distance_cap)
