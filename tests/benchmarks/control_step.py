@@ -59,6 +59,8 @@ def bare_step_times(reach: Reach) -> list[float]:
     """Wall time of the least that each simulated step needs, on the same movements [s].
 
     Set velocities, substeps, read joints, render: nothing is made of what comes back.
+    The engine does not draw the table, as it does not for our camera, which lays it behind the
+    picture: a loop that let the engine draw the table too would take twice as long as this one.
     """
     robot, camera = reach.bench.robot, reach.cfg["camera"]
     assert isinstance(robot.arm, BulletArm)
