@@ -23,6 +23,7 @@ from imitation.robots.demonstrators import Hand, HandOverTable
 from imitation.robots.dry_run import DryRun
 from imitation.robots.recorded import RecordedRobot
 from imitation.sample import RecordedStep
+from imitation.selection import Selection
 from imitation.sequence import TimeCells, TimedSequence
 from imitation.visual_field import VisualField
 from imitation.visuo_motor_map import Learning, VisuoMotorMap
@@ -187,6 +188,12 @@ class Bench:
         }
         controller: Controller = make_offered(_plain(node, "name"), offered)
         return controller
+
+    @cached_property
+    def selection(self) -> Selection:
+        """What sets V in mimicry."""
+        selection: Selection = make(_plain(self.cfg["selection"], "name"))
+        return selection
 
     def empty_map(self) -> VisuoMotorMap:
         """A map that has learned nothing yet."""

@@ -48,6 +48,12 @@ EXAMPLES = {
         ("imitate demo-record camera=video camera.path=FILM vision=skin", "a person in a film"),
         ("imitate demo-record camera=webcam camera.device=0 vision=skin", "a person here and now"),
     ],
+    "mimic": [
+        ("imitate mimic map=RUN", "follow a hand on a circle, as in the paper"),
+        ("imitate mimic map=RUN selection=soft demonstrator=line", "between the areas too"),
+        ("imitate mimic map=RUN demonstrator.period=4 duration=14", "a quick gesture"),
+        ("imitate mimic map=RUN dynamics.tau=0.3", "smoother, later"),
+    ],
     "figure": [
         ("imitate figure fig3a", "all seeds; exit code 1 when a claim fails"),
         ("imitate figure fig3a demo=true", "a few seeds, at a glance"),

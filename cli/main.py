@@ -80,6 +80,12 @@ def demo_record(words: Words = None) -> None:
 
 
 @app.command(**STAGE)
+def mimic(words: Words = None) -> None:
+    """Follow a hand that is taken for the own one."""
+    raise typer.Exit(launch("mimic", words or []))
+
+
+@app.command(**STAGE)
 def figure(
     name: Annotated[str, typer.Argument(help=" | ".join(FIGURES), autocompletion=figure_names)],
     words: Words = None,

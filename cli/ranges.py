@@ -144,6 +144,10 @@ RANGES: dict[str, dict[str, Any]] = {
         "timeout": Positive,
         "watch": Positive,
     },
+    "selection": {
+        "bandwidth": Positive,
+        "ridge": NotNegative,
+    },
     "controller": {
         "bandwidth": Positive,
         "ridge": NotNegative,

@@ -96,6 +96,11 @@ def _reaching(bench: Bench) -> Staged:
     return stored.map.field, stages.reaching(bench, stored.map, trials_of(bench, stored))
 
 
+def _mimicking(bench: Bench) -> Staged:
+    learned = load_map(Path(bench.cfg["map"])).map
+    return learned.field, stages.mimicking(bench, learned)
+
+
 def _watching(bench: Bench) -> Staged:
     _, samples = stages.watching(bench)
     return bench.field, samples
@@ -104,6 +109,7 @@ def _watching(bench: Bench) -> Staged:
 STAGES: Mapping[str, Callable[[Bench], Staged]] = {
     "learn-map": _learning,
     "reach": _reaching,
+    "mimic": _mimicking,
     "demo-record": _watching,
 }
 

@@ -62,8 +62,8 @@ class Demonstrator(Target):
     raised: float = Within(alias="raise")
 
 
-class Controller(Target):
-    """`controller`."""
+class Named(Target):
+    """`controller`, `selection`."""
 
     name: str
 
@@ -230,7 +230,7 @@ class Reach(Common):
     target: Literal["random"] | Pair
     area: Annotated[list[Whole], Within(min_length=2, max_length=2)] | None
     trials: Count
-    controller: Controller
+    controller: Named
     reach: Reaching
 
 
@@ -277,6 +277,31 @@ class DemoRecord(Common):
     states: VisualStates
 
 
+class Mimicry(Section):
+    """`mimic`."""
+
+    endless: Positive
+    catching_up: NotNegative
+    largest_lag: NotNegative
+    shortest: NotNegative
+    grace: NotNegative
+    near: Positive
+    jitter_hz: Pair
+    frechet_points: Annotated[int, Within(ge=2)]
+    required: Share
+
+
+class Mimic(Common):
+    """`imitate mimic`."""
+
+    field: Field | None = None  # the map's, so that none is given
+    map: Place
+    duration: Positive | None
+    shift: Pair
+    selection: Named
+    mimic: Mimicry
+
+
 class Figure(Section):
     """`imitate figure`."""
 
@@ -292,6 +317,7 @@ class Figure(Section):
 COMMANDS: dict[str, type[Section]] = {
     "learn-map": LearnMap,
     "reach": Reach,
+    "mimic": Mimic,
     "demo-record": DemoRecord,
     "figure": Figure,
 }

@@ -3,11 +3,14 @@
 from collections.abc import Iterator, Sequence
 from inspect import signature
 
+import numpy as np
+
 from cli.build import Bench, generator
 from imitation.sample import Sample
 from imitation.stages.babbling import Babbling, Curiosity
 from imitation.stages.demo_record import Watching, demo_record
 from imitation.stages.learn_map import Learner, LearningRun, learn_map
+from imitation.stages.mimic import mimic
 from imitation.stages.reach import Reaching, Trial, reach
 from imitation.visual_states import Resting, VisualStates
 from imitation.visuo_motor_map import VisuoMotorMap
@@ -45,3 +48,12 @@ def watching(bench: Bench) -> tuple[VisualStates, Iterator[Sample]]:
     return states, demo_record(
         bench.robot, perception, bench.dynamics, states, settings, bench.rest
     )
+
+
+def mimicking(bench: Bench, learned: VisuoMotorMap) -> Iterator[Sample]:
+    """The steps of a mimic run."""
+    perception, duration = bench.perception(learned.field), bench.cfg["duration"]
+    if duration is None:
+        film = "path" in bench.cfg["camera"]
+        duration = np.inf if film else bench.cfg["mimic"]["endless"]
+    return mimic(bench.robot, perception, learned, bench.dynamics, bench.selection, duration)

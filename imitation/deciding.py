@@ -65,11 +65,13 @@ def coming_to_rest(
     """`decision` slowed so that the arm can stop at its only attractor.
 
     Args:
-        decision: Drawn by one attractor.
+        decision: Drawn by one attractor, or by none.
         posture: The present posture, (n_joints,) [rad].
         acceleration: What each joint may brake with, (n_joints,) [rad/s^2].
         period: Control period [s].
     """
+    if not len(decision.postures):
+        return decision
     to_go = decision.postures[0] - posture
     return braking(decision, able_to_stop(decision.velocity, to_go, acceleration, period))
 

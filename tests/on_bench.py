@@ -14,7 +14,7 @@ from imitation.stages.learn_map import Learner
 
 def bench(command: str, *words: str, seed: int = 0) -> Bench:
     """The parts of `imitate COMMAND WORDS`."""
-    given = ["map=given"] if command == "reach" else []
+    given = ["map=given"] if command in ("reach", "mimic") else []
     return Bench({**composed(command, *given, *words), "seed": seed})
 
 

@@ -7,9 +7,9 @@ from typing import Any
 
 import numpy as np
 
+from imitation.analysis.place_prediction import prediction_errors
 from imitation.arrays import Array
 from imitation.hull import depth_inside
-from imitation.regression import locally_linear
 from imitation.robot import SECOND, Body, Truth
 from imitation.sample import Sample
 from imitation.visual_field import Area, VisualField
@@ -21,24 +21,6 @@ def place_errors(field_: VisualField, shown: dict[Area, Array]) -> dict[Area, fl
     return {
         area: float(np.linalg.norm(place - field_.centres[area])) for area, place in shown.items()
     }
-
-
-def prediction_errors(learned: VisuoMotorMap) -> Array:
-    """Each posture's seen place predicted from the others by local linear regression, (n,) [px]."""
-    postures, places = learned.memories()
-    scaled = 2 * postures / (learned.upper - learned.lower)
-    errors = []
-    for one in range(len(places)):
-        others = np.arange(len(places)) != one
-        if others.sum() < 3:
-            break
-        apart = np.linalg.norm(scaled[others] - scaled[one], axis=1)
-        bandwidth = float(np.sort(apart)[min(3, len(apart) - 1)])
-        predicted, _ = locally_linear(
-            scaled[others], places[others], scaled[one], bandwidth, 1e-4 * bandwidth**2
-        )
-        errors.append(float(np.linalg.norm(predicted - places[one])))
-    return np.array(errors)
 
 
 def neighbour_spread(learned: VisuoMotorMap) -> Array:

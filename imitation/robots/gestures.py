@@ -112,11 +112,11 @@ def circle(
 def figure_eight(
     centre: Numbers, size: Numbers, period: float, laps: int | None, start: float
 ) -> Gesture:
-    """A lying eight that fills a box, from its middle to the upper right."""
+    """Two loops in a box, the upper one first, from its middle to the upper right."""
 
     def figure(share: float) -> Array:
         angle = 2 * np.pi * share
-        return np.asarray(centre + np.array(size) / 2 * (np.sin(angle), -np.sin(2 * angle)))
+        return np.asarray(centre + np.array(size) / 2 * (np.sin(2 * angle), -np.sin(angle)))
 
     return Laps(figure, period, laps, start)
 

@@ -8,8 +8,8 @@ from imitation.analysis.metrics import (
     learn_map_metrics,
     neighbour_spread,
     place_errors,
-    prediction_errors,
 )
+from imitation.analysis.place_prediction import prediction_errors
 from imitation.perception import Percept
 from imitation.robot import Applied, Body, Command, Observation, Truth
 from imitation.sample import Decision, Event, Sample

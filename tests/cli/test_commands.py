@@ -148,6 +148,6 @@ def test_every_number_of_a_command_says_what_it_is(path):
     if path.stem == "common":
         return
     for key, told in comments(path.stem).items():
-        value = OmegaConf.select(OmegaConf.load(path), key)
+        value = OmegaConf.select(OmegaConf.load(path), key, throw_on_resolution_failure=False)
         if isinstance(value, int | float):
             assert told, f"{key} has no comment"

@@ -57,7 +57,7 @@ def test_after_its_laps_the_hand_rests():
 def test_a_square_visits_its_corners_and_rests_at_each():
     gesture = gesture_of("square", "demonstrator.period=4", "demonstrator.start=0")
     corners = [gesture.place(float(second)).tolist() for second in range(4)]
-    assert corners == [[55, 15], [145, 15], [145, 105], [55, 105]]
+    assert corners == [[55, 45], [115, 45], [115, 105], [55, 105]]
     assert np.linalg.norm(gesture.place(1.02) - gesture.place(1.0)) < 0.2
 
 

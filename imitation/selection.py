@@ -1,0 +1,71 @@
+"""Which attractors what is seen selects in mimicry, and how much (section III)."""
+
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+
+from imitation.arrays import Array
+from imitation.deciding import one_attractor
+from imitation.perception import Percept
+from imitation.regression import locally_linear
+from imitation.visual_field import winner_take_all
+from imitation.visuo_motor_map import Attractors, VisuoMotorMap
+
+
+@dataclass(frozen=True)
+class Selected:
+    """What takes part."""
+
+    selection: Array  # V, (rows, columns)
+    attractors: Attractors  # at most one: the arm comes to rest there
+
+
+class Selection(Protocol):
+    """Chooses an attractor by what is seen."""
+
+    def select(self, learned: VisuoMotorMap, percept: Percept, posture: Array) -> Selected:
+        """What takes part when the arm is at `posture` (n_joints,) [rad]."""
+
+
+@dataclass(frozen=True)
+class Winner:
+    """The paper's hard competition: the posture learned for the area that sees most of the hand."""
+
+    def select(self, learned: VisuoMotorMap, percept: Percept, posture: Array) -> Selected:
+        """What takes part when the arm is at `posture` (n_joints,) [rad]."""
+        selection = winner_take_all(percept.visual_input)
+        return Selected(selection, learned.attractors(selection, posture))
+
+
+@dataclass(frozen=True)
+class Soft:
+    """The winner's neighbours take part too: the map, read between its places.
+
+    Around the place where the hand is seen, posture is taken as linear in the place. The winner
+    still decides whether the hand is where the arm has learned anything.
+
+    Args:
+        bandwidth: Of the regression from learned places to postures [area sides].
+        ridge: Of the same [area sides squared].
+    """
+
+    bandwidth: float
+    ridge: float
+
+    def select(self, learned: VisuoMotorMap, percept: Percept, posture: Array) -> Selected:
+        """What takes part when the arm is at `posture` (n_joints,) [rad]."""
+        selection = winner_take_all(percept.visual_input)
+        hand = percept.hand
+        if hand is None or not (learned.learned & (selection > 0)).any():
+            return Selected(selection, learned.attractors(selection, posture))
+        postures, places = learned.memories()
+        side = learned.field.side
+        read, _ = locally_linear(
+            places, postures, hand, self.bandwidth * side, self.ridge * side**2
+        )
+        near = learned.field.within(hand, self.bandwidth * side) * learned.learned
+        return Selected(
+            np.maximum(selection, near),
+            one_attractor(np.clip(read, learned.lower, learned.upper)),
+        )
