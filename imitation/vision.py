@@ -67,8 +67,8 @@ class HandDetector(ColourDetector):
 
     Args:
         least_patch: A connected patch smaller than this share of the largest is a speck [0..1].
-        length: What of a patch is farther than this from its end that lies farthest from the
-            edge it comes in by is forearm [px]; None: there are none, or they count.
+        length: Of a hand. Of a patch that comes in by an edge of the picture, what lies farther
+            than this from its other end is forearm [px]; None: forearms count.
     """
 
     least_patch: float

@@ -46,17 +46,16 @@ def reasons(found) -> list[str]:
     return [applied.reasons[0] if applied.reasons else "" for _, applied in found]
 
 
-def test_steps_last_a_period_of_real_time_and_frames_are_fresh(stream):
+def test_the_clock_is_the_wall_s_and_frames_are_fresh(stream):
     with watching(stream.url) as robot:
         first = robot.reset()
         began = time.monotonic()
         seen = [one for one, _ in steps(robot, 50)]
-        assert 1.99 < time.monotonic() - began < 2.5
-        assert first.time_ns == 0
-        late = [one.time_ns - 40_000_000 * n for n, one in enumerate(seen, start=1)]
-        assert min(late) >= 0 and np.median(late) < 20_000_000  # delays do not add up
-        assert np.median([one.time_ns - one.frame_time_ns for one in seen]) < 100_000_000
-        assert robot.late_ticks < 25
+        lasted = time.monotonic() - began
+    assert first.time_ns == 0
+    assert all(one.time_ns >= 40_000_000 * step for step, one in enumerate(seen, start=1))
+    assert seen[-1].time == pytest.approx(lasted, abs=0.2)
+    assert np.median([one.time_ns - one.frame_time_ns for one in seen]) < 200_000_000
 
 
 def test_every_frame_is_kept_with_its_own_time(stream):
