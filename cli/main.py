@@ -168,6 +168,18 @@ def verify(
     raise typer.Exit(attempt(lambda: what_if(run, with_) if with_ else verify(run)))
 
 
+@app.command()
+def explain(
+    run: Recorded,
+    at: Annotated[float, typer.Option(help="When, in seconds from the start of the run.")],
+) -> None:
+    """Say in words and numbers why the arm moved as it did at one time of a run."""
+    from cli.explain import explain
+    from cli.job import attempt
+
+    raise typer.Exit(attempt(lambda: explain(run, at)))
+
+
 def main() -> Any:
     """Run the program."""
     return app()

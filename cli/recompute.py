@@ -20,6 +20,7 @@ from cli.check import checked
 from cli.errors import UserError, no_such
 from cli.jobs.reach import trials_of
 from cli.keys import CONF
+from cli.usual import filled
 from cli.what_if import replaced
 from imitation.recording.map_file import load_map
 from imitation.recording.mcap_recording import Recording
@@ -78,7 +79,8 @@ def anew(recording: Recording, words: Sequence[str] = ()) -> Iterator[Anew]:
     if command not in STAGES:
         raise UserError(f"{recording.path}: {no_such('stage', command, sorted(STAGES))}")
     with TemporaryDirectory() as folder:
-        cfg = replaced(command, _unpacked(recording, Path(folder)), words)
+        recorded = filled(command, _unpacked(recording, Path(folder)))
+        cfg = replaced(command, recorded, words)
         bench = Bench(checked(command, OmegaConf.create(dict(cfg))))
         told, fed = tee(steps_told(recording))
         bench.relive(one.step for one in fed)
