@@ -180,6 +180,29 @@ def explain(
     raise typer.Exit(attempt(lambda: explain(run, at)))
 
 
+@app.command()
+def twin(
+    words: Annotated[
+        list[str] | None,
+        typer.Argument(metavar="KEY=VALUE", help="Of the world, such as demonstrator=square."),
+    ] = None,
+    model: Annotated[str, typer.Option(help="Of the Katana: 400 or 450.")] = "400",
+    port: Annotated[int, typer.Option(help="TCP port of the arm; 0: a free one.")] = 5566,
+    pty: Annotated[Path, typer.Option(help="Serial port of the neck, to make.")] = Path("neck"),
+    stream: Annotated[int, typer.Option(help="TCP port of the camera; 0: a free one.")] = 8090,
+    fault: Annotated[
+        list[str] | None,
+        typer.Option(help="NAME[=WHICH][@START[-END]][xTIMES], in seconds; may be repeated."),
+    ] = None,
+) -> None:
+    """Be the paper's whole robot on this computer: arm, neck and camera."""
+    from cli.job import attempt
+    from cli.twin import Asked, twin
+
+    asked = Asked(words or [], model, port, pty, stream, fault or [])
+    raise typer.Exit(attempt(lambda: twin(asked)))
+
+
 def main() -> Any:
     """Run the program."""
     return app()

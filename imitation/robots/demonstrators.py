@@ -35,7 +35,9 @@ class Shown:
 class Demonstrator(Protocol):
     """Who moves that other hand."""
 
-    hand: Hand
+    @property
+    def hand(self) -> Hand:
+        """How that hand looks."""
 
     def at(self, time: float) -> Shown:
         """What is shown `time` seconds after the episode began."""

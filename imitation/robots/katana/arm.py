@@ -48,6 +48,7 @@ class KatanaArm:
         self._read_at = self._kept_up_at = clock()
         self._grip: float | None = None
         self._lost = self._looks = 0
+        self._busy_until = clock()  # with the segments it was sent
         self._nearby = (float("inf"), False)  # what the gripper sensed last
 
     def reset(self, posture: Array) -> None:
@@ -61,12 +62,13 @@ class KatanaArm:
         """Move with `velocity` [rad/s] for `period` [s]; returns at once."""
         self._grip = self._grip if grip is None else grip
         model = self.katana.model
+        ticks = self._ticks(period) if model.moves_all else round(period / TICK)
         target = self._sent.copy()
-        target[:5] += velocity * model.per_radian * period
-        target[5] += self._finger_step(period)
+        target[:5] += velocity * model.per_radian * ticks * TICK
+        target[5] += self._finger_step(ticks * TICK)
         target = np.clip(target, self._lower, self._upper)
         if model.moves_all:
-            self._all_towards(target, round(period / TICK))
+            self._all_towards(target, ticks)
         else:
             self._each_towards(target, velocity)
         moved = (target - self._sent)[:5] / model.per_radian / period
@@ -113,6 +115,15 @@ class KatanaArm:
             self._ready = False
             self.katana.close()
 
+    def _ticks(self, period: float) -> int:
+        """How long the next segment lasts, so that the arm has done it a period from now.
+
+        What came late would be late for ever: segments queue up behind each other.
+        """
+        now = self._clock()
+        left = now + period - max(now, self._busy_until)
+        return max(min(round(left / TICK), round(period / TICK)), 1)
+
     def _finger_step(self, period: float) -> float:
         """How far the gripper goes on now [encoders]."""
         if self._grip is None:
@@ -130,6 +141,7 @@ class KatanaArm:
         if (np.round(target) == np.round(self._sent)).all():
             return  # it holds
         segments = as_segments(np.round(self._sent), np.round(target), ticks)
+        self._busy_until = max(self._busy_until, self._clock()) + ticks * TICK
         try:
             self.katana.move_all(segments)
             self._lost = 0

@@ -21,14 +21,19 @@ LOOK = 0.05  # between two looks at a movement [s]
 
 def connect(model: Model, address: str, timeout: float, tries: int) -> Connection:
     """A connection to the arm at `address`: HOST[:PORT], or the serial port of a 300."""
+    host, _, port = address.partition(":")
+    if port and not model.serial and not port.isdigit():
+        raise ValueError(f"robot.arm.address={address} is no HOST or HOST:PORT")
     line: Line
-    if model.serial:
-        line = SerialLine(address, BAUD, timeout)
-    else:
-        host, _, port = address.partition(":")
-        if port and not port.isdigit():
-            raise ValueError(f"robot.arm.address={address} is no HOST or HOST:PORT")
-        line = TcpLine(host, int(port or PORT), timeout)
+    try:
+        if model.serial:
+            line = SerialLine(address, BAUD, timeout)
+        else:
+            line = TcpLine(host, int(port or PORT), timeout)
+    except DeviceError as error:
+        raise DeviceError(
+            f"no Katana: {error}; switch it on, check its cable, or type robot.arm.address=..."
+        ) from error
     return Connection(line, model.tells_errors, timeout, tries)
 
 

@@ -1,0 +1,121 @@
+"""A twin of the robot: emulated devices move a simulated world, which a camera shows."""
+
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+
+import cv2
+import numpy as np
+
+from imitation.arrays import Array, Image
+from imitation.gaze import VisualSpace
+from imitation.robots.bullet.arm import BulletArm
+from imitation.robots.demonstrators import Demonstrator
+from imitation.robots.faults import Faults
+from imitation.robots.katana.emulated_arm import EmulatedArm
+from imitation.robots.mjpeg import MjpegServer
+from imitation.robots.ssc32 import Servo
+from imitation.robots.ssc32_emulator import Ssc32Emulator
+
+CAMERA_FAULTS = {
+    "camera_frozen": "the camera shows the same picture again and again",
+    "camera_black": "its pictures are black",
+    "camera_gone": "it delivers nothing",
+    "tag_lost": "there is no tag on the hand",
+    "two_tags": "a second thing looks like the tag",
+}
+TAG, COVER = (219, 10, 10), (158, 132, 102)  # colours of the tag and of what hides it, RGB
+
+
+@dataclass
+class Twin:
+    """The world behind the wires.
+
+    Args:
+        arm: The simulated arm, which follows the emulated one.
+        katana: The emulated arm.
+        board: The emulated board of the neck.
+        servos: Pan and tilt, as the neck is built.
+        space: Visual space of the camera.
+        eye: Its optical centre, (3,) [m].
+        straight: Its gaze at the servos' centres, (2,) [rad].
+        demonstrator: Who else has a hand in view; None: nobody.
+        stream: Where the camera's pictures go.
+        rate: Pictures per second [Hz].
+        quality: Of the JPEGs [1..100].
+        faults: What goes wrong with the camera.
+    """
+
+    arm: BulletArm
+    katana: EmulatedArm
+    board: Ssc32Emulator
+    servos: Sequence[Servo]
+    space: VisualSpace
+    eye: Array
+    straight: Array
+    demonstrator: Demonstrator | None
+    stream: MjpegServer
+    rate: float
+    quality: int
+    faults: Faults = field(default_factory=Faults)
+    _shown: bytes = b""
+    _followed: Array = field(default_factory=lambda: np.zeros(0))  # where the arm was led [rad]
+
+    def run(self, over: Callable[[], bool]) -> None:
+        """Go on in real time until it is over."""
+        self.begin()
+        began = time.monotonic()
+        step = 0
+        while not over():
+            step += 1
+            self.advance(step / self.rate)
+            time.sleep(max(began + step / self.rate - time.monotonic(), 0.0))
+
+    def begin(self) -> None:
+        """Put the simulated arm where the emulated one is."""
+        self._followed = self._posture()
+        self.arm.reset(self._followed)
+
+    def advance(self, now: float) -> None:
+        """Have the world follow the devices, and show it at `now` [s]."""
+        posture, opening = (
+            self._posture(),
+            self.katana.model.opening(self.katana.motors[-1].counter),
+        )
+        self.arm.move((posture - self._followed) * self.rate, opening, 1 / self.rate)
+        self._followed = posture
+        if self.demonstrator:
+            self.arm.scene.show(self.demonstrator.at(now), self.demonstrator.hand)
+        if self.faults.at(now, "camera_gone"):
+            return
+        if not (self._shown and self.faults.at(now, "camera_frozen")):
+            self._shown = self._jpeg(self._picture(now))
+        self.stream.publish(self._shown)
+
+    def gaze(self) -> Array:
+        """Where the neck's servos turn the camera, (2,) [rad]."""
+        pulses = self.board.pulses()
+        angles = [one.angle(pulses.get(one.channel, one.centre)) for one in self.servos]
+        return np.asarray(self.straight + np.array(angles))
+
+    def _posture(self) -> Array:
+        return self.katana.model.angles(np.array([one.position for one in self.katana.motors[:5]]))
+
+    def _picture(self, now: float) -> Image:
+        picture = self.arm.scene.photograph(self.space, self.eye, self.gaze())
+        red, green, blue = TAG
+        if self.faults.at(now, "camera_black"):
+            picture[:] = 0
+        if self.faults.at(now, "tag_lost"):
+            looks_red = (picture[..., 0] > red / 2) & (picture[..., 1:] < red / 2).all(axis=2)
+            picture[looks_red] = COVER
+        if self.faults.at(now, "two_tags"):
+            width, height = self.space.size
+            cv2.circle(picture, (width // 2, height // 4), 6, (red, green, blue), -1)
+        return picture
+
+    def _jpeg(self, picture: Image) -> bytes:
+        # A camera on the network has its own encoder: finer than what is recorded of it.
+        bgr = cv2.cvtColor(picture, cv2.COLOR_RGB2BGR)
+        _, jpeg = cv2.imencode(".jpg", bgr, [cv2.IMWRITE_JPEG_QUALITY, self.quality])
+        return jpeg.tobytes()
