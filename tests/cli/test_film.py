@@ -104,3 +104,13 @@ def test_the_hand_of_a_person_is_seen_in_every_frame(imitate):
     places = np.array([(one.x, one.y) for one in hands])
     assert np.linalg.norm(np.diff(places, axis=0), axis=1).max() < 8
     assert np.ptp(places[:, 0]) > 60  # from right to left and back, the hand and not its arm
+
+
+@pytest.mark.skipif(not OF_A_PERSON.is_file(), reason="the film of a person is not here")
+def test_the_arm_follows_the_hand_of_a_person(imitate, learned):
+    words = ["camera=video", f"camera.path={OF_A_PERSON}", "vision=skin", "selection=soft"]
+    result = imitate("mimic", f"map={learned}", "robot=ideal", *words, "out=run")
+    assert result.exit_code == 0, result.output
+    told = metrics(imitate.folder / "run")
+    assert told["correlation"] > 0.95
+    assert told["path_rmse_px"] < 6
