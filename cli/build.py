@@ -19,9 +19,11 @@ from imitation.guard import Guard
 from imitation.perception import Perception
 from imitation.robot import SECOND, Body, Robot
 from imitation.robots.bodies import guard_of
-from imitation.robots.demonstrators import Hand, HandOverTable
+from imitation.robots.bullet.world_can import Can
+from imitation.robots.demonstrators import HandOverTable
 from imitation.robots.dry_run import DryRun
 from imitation.robots.recorded import RecordedRobot
+from imitation.robots.scenery import can_on_table, hand_over_table
 from imitation.sample import RecordedStep
 from imitation.selection import Selection
 from imitation.sequence import TimeCells, TimedSequence
@@ -31,7 +33,7 @@ from imitation.visuo_motor_map import Learning, VisuoMotorMap
 Config = Mapping[str, Any]
 BODY = "imitation.robots.bodies.body_of"  # joints and limits of an arm, without the arm
 
-DEMONSTRATOR = ("name", "hand", "hands", "height", "raise")  # keys that all gestures share
+DEMONSTRATOR = ("name", "hand", "hands", "height", "raise")  # what no gesture asks for
 
 
 def generator(seed: int, purpose: str) -> np.random.Generator:
@@ -96,7 +98,8 @@ class Bench:
     def robot(self) -> Robot:
         """The arm, its camera and the guard."""
         node = self.cfg["robot"]
-        arm = make_offered(node["arm"], {"period": self.period_ns / SECOND})
+        beside = {"period": self.period_ns / SECOND, "thing": self.thing}
+        arm = make_offered(node["arm"], beside)
         if self.cfg["dry_run"]:
             arm = DryRun(arm)
         offered = {
@@ -124,12 +127,7 @@ class Bench:
         gesture = make(_plain(node, *DEMONSTRATOR))
         if gesture is None:
             return None
-        if node["hand"] not in node["hands"]:
-            known = ", ".join(node["hands"])
-            raise ValueError(f"demonstrator.hand={node['hand']} is no hand; type one of {known}")
-        hand = Hand(**node["hands"][node["hand"]])
-        eye, height, higher = np.array(camera["eye"]), node["height"], node["raise"]
-        return HandOverTable(hand, gesture, self.space, eye, height, higher)
+        return hand_over_table(node, gesture, self.space, camera["eye"])
 
     def relive(self, steps: Iterator[RecordedStep]) -> None:
         """Have a robot from now on that senses what a recording tells, step by step."""
@@ -141,6 +139,20 @@ class Bench:
         node = self.cfg["robot"]
         shared = {"urdf": node["arm"]["urdf"], "base": node["arm"]["base"]}
         return guard_of(body, **shared, **node["guard"])
+
+    @cached_property
+    def thing(self) -> Can | None:
+        """What stands on the table, where a hand that holds it would be seen; None: nothing."""
+        node, robot = self.cfg.get("object"), self.cfg["robot"]
+        if node is None:
+            return None
+        if "thing" not in signature(get_method(robot["arm"]["_target_"])).parameters:
+            raise ValueError(
+                f"object={node['name']} needs an arm in an engine, robot={robot['name']} is none; "
+                "type robot=katana_sim, or object=null"
+            )
+        rng = generator(self.cfg["seed"], "object")
+        return can_on_table(node, robot, self.learning_space, self.cfg["camera"]["eye"], rng)
 
     @property
     def period_ns(self) -> int:

@@ -24,6 +24,7 @@ SUPPLIED = {
     "gaze",
     "rng",
     "demonstrator",
+    "thing",
     "acceleration",
     "period",
 }
@@ -119,6 +120,8 @@ def check_joints(robot: Config | None) -> None:
     given = {f"robot.guided[{i}]": posture for i, posture in enumerate(robot["guided"])}
     given["robot.rest"] = robot["rest"]
     given["robot.arm.force"] = robot["arm"].get("force")
+    offsets = ("drawn_back", "lifted", "lowered", "leaving")
+    given |= {f"robot.grasp.{name}": (robot["grasp"] or {}).get(name) for name in offsets}
     for key, values in given.items():
         if values is not None and len(values) != count:
             raise UserError(f"{key} needs {count} numbers, one a joint; got {_short(values)}")

@@ -75,6 +75,22 @@ class Servo(Section):
     upper: Pulse
 
 
+class Gripper(Section):
+    """`robot.arm.gripper`."""
+
+    joints: Annotated[list[str], Within(min_length=2, max_length=2)]
+    force: NotNegative
+    speed: Positive
+    friction: NotNegative
+    spinning: NotNegative
+    rolling: NotNegative
+    palm: str
+    rays: Annotated[list[Triple], Within(min_length=1)]
+    reach: Positive
+    beams: Annotated[list[Positive], Within(min_length=1)]
+    pad: Pair
+
+
 RANGES: dict[str, dict[str, Any]] = {
     "camera": {
         "eye": Triple,
@@ -112,11 +128,10 @@ RANGES: dict[str, dict[str, Any]] = {
         "mark": Mark,
         "table": Table,
         "joints": Names,
-        "fingers": list[str],
+        "gripper": Gripper | None,
         "speed": list[Positive] | None,
         "acceleration": list[Positive],
         "force": list[Positive],
-        "finger_force": NotNegative,
         "rate": Annotated[int, Within(ge=1, le=10_000)],
         "iterations": Annotated[int, Within(ge=1, le=10_000)],
         "stiffness": Annotated[float, Within(ge=0, le=1_000)],

@@ -62,6 +62,22 @@ class Demonstrator(Target):
     raised: float = Within(alias="raise")
 
 
+class Object(Section):
+    """`object`."""
+
+    name: str
+    radius: Positive
+    height: Positive
+    mass: Positive
+    friction: NotNegative
+    spinning: NotNegative
+    rolling: NotNegative
+    colour: Colour
+    seen_px: Pair
+    off_m: Pair
+    scatter: NotNegative
+
+
 class Named(Target):
     """`controller`, `selection`."""
 
@@ -118,6 +134,7 @@ class Holding(Section):
     """`robot.holding`."""
 
     height: float
+    outwards: float
 
 
 class Approach(Section):
@@ -126,6 +143,19 @@ class Approach(Section):
     share: Annotated[float, Within(gt=0, le=1)]
     tolerance: Positive
     patience: Positive
+
+
+class Grasp(Section):
+    """`robot.grasp`."""
+
+    drawn_back: Posture
+    lifted: Posture
+    lowered: Posture
+    leaving: Posture
+    close_within: Positive
+    firm: Positive
+    closing: Positive
+    opening: Positive
 
 
 class Robot(Section):
@@ -139,6 +169,7 @@ class Robot(Section):
     guard: Guard
     approach: Approach | None = None  # of a real arm
     holding: Holding
+    grasp: Grasp | None
 
 
 class Dynamics(Section):
@@ -164,6 +195,7 @@ class Common(Section):
     vision: Target
     dynamics: Dynamics
     demonstrator: Demonstrator
+    object: Object | None = None  # what a command without it does not take
 
 
 class Clusters(Section):

@@ -91,14 +91,13 @@ def scene():
             f"katana_motor{joint}_joint"
             for joint in ("1_pan", "2_lift", "3_lift", "4_lift", "5_wrist_roll")
         ),
-        fingers=(),
+        fingers=None,
         mark=Mark("katana_gripper_link", (0.030, 0.0, 0.045), 0.012, (1.0, 0.0, 0.0, 1.0)),
         table=Table((1.0, 0.9, 0.04), (0.3, 0.0, -0.02), (0.6, 0.6, 0.55, 1.0), 0.8),
         base=(0.0, 0.0, 0.0),
         rate=250,
         iterations=50,
         force=(60.0, 60.0, 60.0, 40.0, 20.0),
-        finger_force=2.0,
     )
     world.rebuild(HOME, opening=1.0)
     yield BulletScene(world)

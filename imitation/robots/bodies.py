@@ -10,6 +10,8 @@ from imitation.guard import Guard
 from imitation.robot import Body
 from imitation.robots.bullet.arm import BulletArm
 from imitation.robots.bullet.world import Mark, Table, World, find_urdf
+from imitation.robots.bullet.world_can import Can
+from imitation.robots.bullet.world_gripper import Fingers
 from imitation.robots.demonstrators import Demonstrator
 from imitation.robots.ideal import IdealArm, pixel
 from imitation.robots.kinematic_chain import KinematicChain, TableAndBase
@@ -49,32 +51,32 @@ def bullet_arm(
     name: str,
     urdf: str,
     joints: Sequence[str],
-    fingers: Sequence[str],
+    gripper: Mapping[str, Any] | None,
     mark: Mapping[str, Any],
     table: Mapping[str, Any],
     base: Numbers,
     speed: Numbers | None,
     acceleration: Numbers,
     force: Numbers,
-    finger_force: float,
     rate: int,
     iterations: int,
     stiffness: float,
     period: float,
+    thing: Can | None,
 ) -> BulletArm:
     """An arm in a PyBullet world of its own; see `World` and `BulletArm` for the values."""
     refuse_part_of_a_substep(period, rate)
     world = World(
         urdf=urdf,
         joints=tuple(joints),
-        fingers=tuple(fingers),
-        mark=Mark(**{key: _frozen(value) for key, value in mark.items()}),
-        table=Table(**{key: _frozen(value) for key, value in table.items()}),
+        fingers=None if gripper is None else Fingers(**_frozen_values(gripper)),
+        mark=Mark(**_frozen_values(mark)),
+        table=Table(**_frozen_values(table)),
         base=(base[0], base[1], base[2]),
         rate=rate,
         iterations=iterations,
         force=tuple(force),
-        finger_force=finger_force,
+        can=thing,
     )
     return BulletArm(world, body_of(name, urdf, joints, base, speed, acceleration), stiffness)
 
@@ -160,5 +162,11 @@ def guard_of(
     )
 
 
+def _frozen_values(node: Mapping[str, Any]) -> dict[str, Any]:
+    return {key: _frozen(value) for key, value in node.items()}
+
+
 def _frozen(value: Any) -> Any:
-    return tuple(value) if isinstance(value, Sequence) and not isinstance(value, str) else value
+    if isinstance(value, Sequence) and not isinstance(value, str):
+        return tuple(_frozen(one) for one in value)
+    return value

@@ -30,7 +30,7 @@ TYPED = [
     (["learn-map", "robot.arm.force=[1]"], ["robot.arm.force needs 5 numbers"]),
     (["learn-map", "robot.arm.mark.radius=-1"], ["robot.arm.mark.radius=-1", "greater than 0"]),
     (["learn-map", "robot.arm.mark.link=x"], ["katana_6m180.urdf has no x", "gripper"]),
-    (["learn-map", "robot.arm.fingers=[x]"], ["katana_6m180.urdf has no x", "finger"]),
+    (["learn-map", "robot.arm.gripper.palm=x"], ["katana_6m180.urdf has no x", "gripper"]),
     (["learn-map", "robot.arm.table.size=2"], ["robot.arm.table.size=2", "a list"]),
     (["learn-map", "robot=ideal", "robot.arm.mark.link=x"], ["no link x", "gripper"]),
     (["learn-map", "robot=ideal", "robot.arm.rate=1"], ["robot.arm.rate does not go with"]),

@@ -109,14 +109,13 @@ def world():
     world = World(
         urdf="katana_6m180.urdf",
         joints=KATANA,
-        fingers=(),
+        fingers=None,
         mark=Mark("katana_gripper_link", AT, 0.012, (1.0, 0.0, 0.0, 1.0)),
         table=Table((1.0, 0.9, 0.04), (0.3, 0.0, -0.02), (0.6, 0.6, 0.55, 1.0), 0.8),
         base=(0.1, -0.2, 0.0),
         rate=250,
         iterations=50,
         force=(60.0, 60.0, 60.0, 40.0, 20.0),
-        finger_force=2.0,
     )
     yield world
     world.close()

@@ -50,11 +50,12 @@ class BulletArm:
 
     def read(self) -> JointReading:
         """Sense the joints and the gripper."""
-        return JointReading(self._posture, self._velocity, self.world.opening())
+        felt = self.world.opening(), self.world.proximity(), self.world.touching()
+        return JointReading(self._posture, self._velocity, *felt)
 
     def truth(self) -> tuple[Array, Array | None]:
-        """True position of the hand's mark [m]."""
-        return self._mark, None
+        """True position of the hand's mark [m] and pose of the can."""
+        return self._mark, self.world.can_pose()
 
     def close(self) -> None:
         """End the world."""

@@ -57,3 +57,4 @@ class BulletScene:
     def show(self, shown: Shown, hand: Hand) -> None:
         """Have a demonstrator's hand in the world, or none."""
         self.world.show_other(shown.mark, hand.radius, hand.colour)
+        self.world.carry_can(shown.mark if shown.carrying else None)

@@ -10,6 +10,8 @@ import numpy as np
 
 from imitation.arrays import Array, Image
 from imitation.robots.bullet.silence import silence
+from imitation.robots.bullet.world_can import Can, StandingCan
+from imitation.robots.bullet.world_gripper import Fingers, Gripper
 
 with silence():
     import pybullet
@@ -67,26 +69,26 @@ class World:
     Args:
         urdf: Name or path of the arm's URDF.
         joints: Names of the arm's joints, in the order of a posture.
-        fingers: Names of the finger joints, closing with the negative sense; may be empty.
+        fingers: Of its gripper; None: it has none.
         mark: What the camera sees of the hand.
         table: What the arm works on.
         base: Where the arm stands (3,) [m].
         rate: Physics steps per second [Hz].
         iterations: Of the contact solver, for each physics step.
         force: Largest motor torque of each joint [Nm].
-        finger_force: Largest torque of a finger [Nm].
+        can: What stands on the table; None: nothing.
     """
 
     urdf: str
     joints: tuple[str, ...]
-    fingers: tuple[str, ...]
+    fingers: Fingers | None
     mark: Mark
     table: Table
     base: tuple[float, float, float]
     rate: int
     iterations: int
     force: tuple[float, ...]
-    finger_force: float
+    can: Can | None = None
     _links: dict[str, int] = field(default_factory=dict, init=False)
 
     def __post_init__(self) -> None:
@@ -116,17 +118,16 @@ class World:
         by_name = {row[1].decode(): joint for joint, row in enumerate(info)}
         self._links = {row[12].decode(): joint for joint, row in enumerate(info)}
         self._joints = [self._known(name, by_name) for name in self.joints]
-        self._fingers = [self._known(name, by_name) for name in self.fingers]
         self._known(self.mark.link, self._links)
-        self._finger_range = [(info[j][8], info[j][9]) for j in self._fingers]
         for joint, angle in zip(self._joints, posture, strict=True):
             pybullet.resetJointState(self._arm, joint, angle, **call)
-        for joint, (closed, opened) in zip(self._fingers, self._finger_range, strict=True):
-            angle = closed + opening * (opened - closed)
-            pybullet.resetJointState(self._arm, joint, angle, **call)
+        self._gripper = self._add_gripper(by_name)
+        if self._gripper:
+            self._gripper.place(opening)
         self._mark = self._sphere(self.mark.radius, self.mark.colour)
         self.carry_mark()
         self._other: int | None = None
+        self._can = StandingCan(self.can, self._client) if self.can else None
         self.grip(opening)
 
     def drive(self, velocity: Array) -> None:
@@ -153,16 +154,8 @@ class World:
 
     def grip(self, opening: float) -> None:
         """Let the fingers move to `opening` (0 closed .. 1 open)."""
-        for joint, (closed, opened) in zip(self._fingers, self._finger_range, strict=True):
-            pybullet.setJointMotorControl2(
-                self._arm,
-                joint,
-                pybullet.POSITION_CONTROL,
-                targetPosition=closed + opening * (opened - closed),
-                force=self.finger_force,
-                maxVelocity=0.6,
-                physicsClientId=self._client,
-            )
+        if self._gripper:
+            self._gripper.grip(opening)
 
     def advance(self, substeps: int) -> None:
         """Let `substeps` physics steps pass."""
@@ -176,11 +169,23 @@ class World:
 
     def opening(self) -> float:
         """How far the gripper is open, 0 closed .. 1 open."""
-        if not self._fingers:
-            return 1.0
-        angle = pybullet.getJointState(self._arm, self._fingers[0], physicsClientId=self._client)[0]
-        closed, opened = self._finger_range[0]
-        return float((angle - closed) / (opened - closed))
+        return self._gripper.opening() if self._gripper else 1.0
+
+    def proximity(self) -> float:
+        """From the palm to what is between the fingers [m]; inf: nothing is."""
+        if not (self._gripper and self._can):
+            return float("inf")
+        return self._gripper.proximity(self._can.body)
+
+    def touching(self) -> bool:
+        """Whether both fingers touch something."""
+        if not (self._gripper and self._can):
+            return False
+        return self._gripper.touches(self._can.body)
+
+    def can_pose(self) -> Array | None:
+        """Position [m] and quaternion of the can, (7,); None: there is none."""
+        return self._can.pose() if self._can else None
 
     def mark_position(self) -> Array:
         """Centre of the mark on the hand, (3,) [m]."""
@@ -272,6 +277,22 @@ class World:
         if self._other is None:
             self._other = self._sphere(radius, colour)
         self._put(self._other, position)
+
+    def carry_can(self, hand: Array | None) -> None:
+        """Let the can follow another's `hand` (3,) [m]; None: it stands for itself."""
+        if self._can:
+            self._can.follow(hand)
+
+    def _add_gripper(self, joints: Mapping[str, int]) -> Gripper | None:
+        if self.fingers is None:
+            return None
+        for name in self.fingers.joints:
+            self._known(name, joints)
+        self._known(self.fingers.palm, self._links)
+        gripper = Gripper(self.fingers, self._arm, joints, self._links, self._client)
+        if self.can:
+            gripper.prepare()
+        return gripper
 
     def _sphere(self, radius: float, colour: Sequence[float]) -> int:
         """A new sphere that is only seen, never touched."""
