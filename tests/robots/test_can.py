@@ -10,7 +10,7 @@ from imitation.robots.bullet.world import find_urdf
 from imitation.robots.kinematic_chain import KinematicChain
 
 BETWEEN_PADS = ("katana_gripper_link", np.array([0.10, 0.0, 0.0]))
-MIDDLE, RIGHT = (0.5, 0.3), (0.75, 0.3)  # shares of right and of far between the guided postures
+MIDDLE, RIGHT = (0.5, 0.3), (0.62, 0.3)  # shares of right and of far between the guided postures
 
 
 def hull_posture(right: float, far: float):
