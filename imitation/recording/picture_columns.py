@@ -86,7 +86,7 @@ class Overview:
     def curves(self) -> set[str]:
         """The curves that have a line."""
         gain, noise, distance = self.dynamics
-        told = {"dynamics": gain or noise, "distance": distance}
+        told = {"dynamics": gain or noise, "distance": distance, "places": not distance}
         return {"joints", "velocity"} | {curve for curve, there in told.items() if there}
 
     @classmethod

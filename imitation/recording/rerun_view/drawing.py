@@ -18,7 +18,7 @@ GUIDE = """# What is what
 **Camera** the picture the robot decides on, with the areas of its visual field
 
 - cyan: the hand as it is seen
-- white ring: where it truly is (known in simulation alone)
+- white ring: where the robot's own hand truly is (known in simulation alone)
 - yellow: the target
 - green: where the hand was when an area was learned
 
@@ -41,6 +41,7 @@ COLOURS = [
     (186, 140, 255),
     (230, 220, 90),
 ]
+FIRST_COLOUR = {"curves/dynamics/noise_level": 1, "curves/places/own": 2}
 TURN = np.linspace(0, 2 * np.pi, 17)
 RING = 2.5 * np.column_stack((np.cos(TURN), np.sin(TURN)))  # around the true hand [px]
 FAINT = (255, 255, 255, 90)
@@ -89,7 +90,7 @@ class Drawing:
         log("camera/learned", rr.Points2D.from_fields(colors=GREEN, radii=0.8))
         log("camera/true_hand", rr.LineStrips2D.from_fields(colors=WHITE, radii=0.25))
         for entity, names in self._lines().items():
-            first = 1 if entity.endswith("noise_level") else 0
+            first = FIRST_COLOUR.get(entity, 0)
             colours = list(itertools.islice(itertools.cycle(COLOURS), first, first + len(names)))
             log(entity, rr.SeriesLines(names=names, colors=colours))
         if self._body:
@@ -119,9 +120,15 @@ class Drawing:
     def _lines(self) -> dict[str, list[str]]:
         """Entities of the curves with the names of their lines."""
         joints = short(self._shown.topics["/joint_states"].names)
-        return {"curves/joints": joints, "curves/velocity": joints} | {
-            f"curves/{entity}": [name] for entity, name in self._dynamics()
+        places = {
+            "curves/places/seen": ["x seen", "y seen"],
+            "curves/places/own": ["x own", "y own"],
         }
+        return (
+            {"curves/joints": joints, "curves/velocity": joints}
+            | places
+            | {f"curves/{entity}": [name] for entity, name in self._dynamics()}
+        )
 
     def _dynamics(self) -> list[tuple[str, str]]:
         return [curve for curve, told in zip(DYNAMICS, self._shown.dynamics, strict=True) if told]
@@ -170,6 +177,9 @@ class Drawing:
             for curve, values in zip(DYNAMICS, dynamics.T, strict=True)
             if curve in self._dynamics()
         }
+        for topic, name in (("/hand", "places/seen"), ("/truth/hand", "places/own")):
+            if topic in batch:
+                curves[name] = (topic, batch.places(topic)[0])
         for name, (topic, values) in curves.items():
             send(stream, f"curves/{name}", batch.times(topic), rr.Scalars.columns(scalars=values))
 

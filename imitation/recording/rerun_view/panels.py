@@ -11,6 +11,7 @@ TIMELINE = "run_time"
 CURVES = {
     "joints": "Joints [rad]",
     "velocity": "Velocity sent to the arm [rad/s]",
+    "places": "Hand in visual space [px]",
     "distance": "Distance from hand to target [px]",
     "dynamics": "Gain A and noise level ε",
 }
