@@ -13,7 +13,6 @@ from cli.experiments import Experiment
 from imitation.analysis.fig1 import HandInView, Scene, Sightings, draw_fig1
 from imitation.analysis.figure_style import Drawn
 from imitation.arrays import Array
-from imitation.gaze import rotation
 from imitation.robots.bullet.world import find_urdf
 from imitation.robots.kinematic_chain import KinematicChain
 
@@ -79,7 +78,7 @@ def scene_of(bench: Bench, portrait: Any) -> Scene:
     height = world.table.height
     width, tall = bench.space.size
     corners = np.array(((0, 0), (width, 0), (width, tall), (0, tall)))
-    view = [portrait.place_of(_on_table(bench, corner, eye, gaze, height)) for corner in corners]
+    view = [portrait.place_of(bench.space.unproject(corner, eye, height)) for corner in corners]
     return Scene(
         side=portrait.picture(world, seen.posture, eye, gaze),
         frame=seen.frame,
@@ -90,10 +89,3 @@ def scene_of(bench: Bench, portrait: Any) -> Scene:
         view=np.array(view),
         joints=len(seen.posture),
     )
-
-
-def _on_table(bench: Bench, corner: Array, eye: Array, gaze: Array, height: float) -> Array:
-    """Where the ray through an image point `corner` (2,) [px] meets the table (3,) [m]."""
-    space = bench.space
-    ray = rotation(gaze) @ np.append((corner - np.array(space.centre)) / space.focal, 1.0)
-    return np.asarray(eye + ray * (height - eye[2]) / ray[2])
