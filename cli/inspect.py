@@ -18,7 +18,8 @@ from imitation.recording.mcap_recording import Recording
 from imitation.recording.survey import Survey, survey
 
 MOST = 6  # settings or results that are named one by one
-BESIDE = ("command", "status", "seed", "robot_time_s", "wall_time_s", "steps")
+CADENCE = ("late_ticks", "achieved_rate_hz", "frames_used")
+BESIDE = ("command", "status", "seed", "robot_time_s", "wall_time_s", "steps", *CADENCE)
 NEXT = {
     "learn-map": "imitate reach map={run}",
     "demo-record": "imitate replay map=MAP action={run}",
@@ -145,8 +146,8 @@ def lasted(told: Mapping[str, Any], metrics: Mapping[str, Any]) -> Iterator[str]
     if metrics:
         yield f"{metrics.get('steps')} steps"
         yield f"{metrics.get('wall_time_s')} s at the wall"
-    if metrics.get("late_ticks"):
-        yield f"{metrics['late_ticks']} steps late"
+    if rate := metrics.get("achieved_rate_hz"):
+        yield f"{rate:.2f} steps a second, {metrics.get('late_ticks', 0)} late"
 
 
 def short(value: Any) -> str:

@@ -103,7 +103,7 @@ def _try_to_write_metrics(run: Run, status: str) -> None:
 def _finish(run: Run, outcome: Outcome) -> int:
     run.write_metrics("done", outcome.metrics)
     run.draw()
-    show(run.command, run.folder, outcome)
+    show(run.command, run.folder, outcome, run.cadence)
     if outcome.complaint:
         _say(outcome.complaint)
         return NOT_TRUE

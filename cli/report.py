@@ -10,11 +10,11 @@ from rich.table import Table
 from cli.run import Outcome
 
 
-def show(command: str, folder: Path, outcome: Outcome) -> None:
+def show(command: str, folder: Path, outcome: Outcome, cadence: list[tuple[str, str]]) -> None:
     """Print the results of a run on stdout."""
     console = Console(highlight=False, soft_wrap=True)
     table = Table(title=f"imitate {command}", title_justify="left", show_header=False)
-    for name, value in outcome.rows:
+    for name, value in [*outcome.rows, *cadence]:
         table.add_row(name, value)
     console.print(table)
     where = os.path.relpath(folder)

@@ -21,6 +21,7 @@ from cli.confirm import confirm_motion
 from cli.interruption import Interruption
 from cli.progress import ProgressReport
 from cli.provenance import run_record, sha256
+from imitation.analysis.cadence import Cadence
 from imitation.analysis.frame_count import FrameCount
 from imitation.recording.mcap_recording import Recorder
 from imitation.robot import SECOND, Truth
@@ -63,6 +64,7 @@ class Run:
     steps: int = 0
     robot_time_s: float = 0.0
     late_ticks: int = 0  # steps that took longer than a period of real time
+    _cadence: Cadence = field(default_factory=Cadence)
     _frames: FrameCount = field(default_factory=FrameCount)
     _inputs: dict[str, Path] = field(default_factory=dict)
     _began: float = field(default_factory=time.monotonic)
@@ -80,6 +82,15 @@ class Run:
     def body_words(self) -> list[str]:
         """Which of the typed words chose the body: a command that follows needs them too."""
         return [shlex.quote(word) for word in self.typed if word.startswith(("robot", "camera"))]
+
+    @property
+    def cadence(self) -> list[tuple[str, str]]:
+        """What is printed of how time was kept; nothing in simulation, where it cannot be lost."""
+        rate = self._cadence.rate
+        if rate is None or not self.bench.robot.live:
+            return []
+        late = f"{self.late_ticks} of {self.steps} late"
+        return [("steps a second", f"{rate:.2f} of {1 / self.bench.robot.period:g}, {late}")]
 
     def uses(self, key: str, path: Path) -> None:
         """Attach the file that the configuration's `key` names to the recording."""
@@ -136,6 +147,7 @@ class Run:
             "wall_time_s": round(time.monotonic() - self._began, 3),
             "steps": self.steps,
             "late_ticks": self.late_ticks,
+            "achieved_rate_hz": self._cadence.rate,
             **self._frames.result(),
             **more,
         }
@@ -154,6 +166,7 @@ class Run:
         self.steps += 1
         self.late_ticks = self.bench.robot.late_ticks
         self._frames.add(sample.seen)
+        self._cadence.add(sample.seen)
         self.robot_time_s = round(sample.applied.time_ns / SECOND + self.bench.robot.period, 9)
         for event in sample.events:
             self.log.info("%.2f s: %s: %s", sample.seen.time, event.kind, event.sentence)

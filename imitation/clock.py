@@ -15,6 +15,9 @@ class Clock(Protocol):
     def tick(self) -> int:
         """Wait until a period after the last tick: the time then."""
 
+    def now(self) -> int:
+        """The time."""
+
 
 class SimulatedClock:
     """Time passes as fast as it is computed.
@@ -35,6 +38,10 @@ class SimulatedClock:
     def tick(self) -> int:
         """A period has passed."""
         self._time_ns += self._period_ns
+        return self._time_ns
+
+    def now(self) -> int:
+        """The time, which stands still between two ticks."""
         return self._time_ns
 
 
@@ -66,4 +73,8 @@ class WallClock:
         else:
             self.late += 1
             self._deadline_ns += -ahead // self._period_ns * self._period_ns
+        return self.now()
+
+    def now(self) -> int:
+        """The time since the first episode began."""
         return time.monotonic_ns() - self._start_ns

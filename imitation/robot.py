@@ -218,8 +218,9 @@ class Robot:
         blind = (self._trouble,) if self._trouble else ()
         wanted = np.zeros(len(self.home)) if blind else command.velocity
         limited, reasons = self.guard.limit(wanted, self._velocity, self._posture, self.period)
+        when = self._clock.now()
         sent = self.arm.move(limited, command.grip, self.period)
-        applied = Applied(command.velocity, limited, sent, (*blind, *reasons), self._time_ns)
+        applied = Applied(command.velocity, limited, sent, (*blind, *reasons), when)
         self._velocity = limited
         self._time_ns = self._clock.tick()
         return self._sense(command.gaze), applied

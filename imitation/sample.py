@@ -53,6 +53,7 @@ class RecordedStep:
 
     seen: Observation
     sent: Array  # velocity that the arm made of the command, (n_joints,) [rad/s]
+    sent_ns: int  # when it was sent
     begins: bool  # an episode: the robot was reset before
     trouble: str | None = None  # with the frame, why the arm was not to move
 

@@ -143,8 +143,9 @@ def _step(
     if missing := NEEDED - told.keys():
         at = said[-1].time_ns / SECOND
         raise ValueError(f"the step at {at:.3f} s lacks {', '.join(sorted(missing))}")
-    sent = told["/joint_command/sent"].velocity
-    return RecordedStep(_observation(told, frames, came, begins), sent, begins, trouble)
+    sent = told["/joint_command/sent"]
+    seen, sent_ns = _observation(told, frames, came, begins), messages.time_of(sent.header)
+    return RecordedStep(seen, sent.velocity, sent_ns, begins, trouble)
 
 
 def _observation(

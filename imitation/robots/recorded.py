@@ -114,6 +114,26 @@ class RecordedCamera:
         """Nothing to release."""
 
 
+@dataclass
+class RecordedClock:
+    """Tells when things happened then."""
+
+    tape: Tape
+    late = 0
+
+    def begin(self) -> int:
+        """When the episode began."""
+        return self.tick()
+
+    def tick(self) -> int:
+        """When the senses came."""
+        return self.tape.now.seen.time_ns
+
+    def now(self) -> int:
+        """When the command was sent."""
+        return self.tape.now.sent_ns
+
+
 class RecordedRobot(Robot):
     """A robot that lives through a recording again, with the guard inside.
 
@@ -136,8 +156,8 @@ class RecordedRobot(Robot):
         self._tape = Tape(steps, period_ns)
         arm, camera = RecordedArm(body, self._tape), RecordedCamera(self._tape)
         super().__init__(arm, camera, guard, home, period_ns)
+        self._clock = RecordedClock(self._tape)
 
     def _sense(self, gaze: Array | None, begins: bool = False) -> Observation:
         super()._sense(gaze, begins)
-        self._time_ns = self._tape.now.seen.time_ns  # the clock is the recording's
         return self._tape.now.seen

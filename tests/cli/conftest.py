@@ -9,7 +9,8 @@ from typer.testing import CliRunner, Result
 
 from cli.main import app
 
-sys.path.insert(0, str(Path(__file__).parents[1] / "recording"))  # where tampering.py is
+for beside in ("recording", "robots"):  # where tampering.py and made_up_films.py are
+    sys.path.insert(0, str(Path(__file__).parents[1] / beside))
 
 
 @dataclass

@@ -28,6 +28,7 @@ main()
 STAGES = {
     "learn-map": ["learn-map"],
     "reach": ["reach", "map={map}", "controller=noise", "trials=99"],
+    "mimic": ["mimic", "map={map}", "duration=120"],
     "demo-record": ["demo-record", "demo.gone=60"],
 }
 

@@ -52,6 +52,30 @@ def test_reaching_in_other_ways_is_the_same_bit_for_bit(imitate, learned, words)
     assert told.exit_code == 0, told.output
 
 
+@pytest.mark.parametrize("words", [("selection=soft",), ("demonstrator=square", "seed=2")])
+def test_mimicking_is_the_same_bit_for_bit(imitate, learned, words):
+    imitate("mimic", "robot=ideal", f"map={learned}", "duration=4", *words, "out=run")
+    told = imitate("verify", "run")
+    assert told.exit_code == 0, told.output
+
+
+def test_watching_is_the_same_bit_for_bit(imitate):
+    imitate("demo-record", "robot=ideal", "demo.duration=6", "out=run")
+    told = imitate("verify", "run")
+    assert told.exit_code == 0, told.output
+
+
+def test_what_a_film_shows_is_the_same_bit_for_bit(imitate, tmp_path):
+    from made_up_films import film
+
+    film(tmp_path / "film.mp4", frames=40)
+    words = ("robot=ideal", "camera=video", "camera.path=film.mp4", "vision.min_pixels=1")
+    imitate("demo-record", *words, "out=run")
+    assert "CompressedImage" in imitate("inspect", "run").stdout
+    told = imitate("verify", "run")
+    assert told.exit_code == 0, told.output
+
+
 @pytest.mark.slow
 def test_runs_in_the_engine_are_the_same_bit_for_bit(imitate):
     imitate("learn-map", "out=map")
