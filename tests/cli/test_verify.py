@@ -76,6 +76,17 @@ def test_what_a_film_shows_is_the_same_bit_for_bit(imitate, tmp_path):
     assert told.exit_code == 0, told.output
 
 
+def test_what_a_live_camera_shows_is_the_same_bit_for_bit(imitate, learned, tmp_path):
+    from made_up_films import film
+
+    film(tmp_path / "film.mp4", frames=60)
+    words = ("camera=webcam", "camera.device=film.mp4", "duration=1")
+    told = imitate("mimic", "robot=ideal", f"map={learned}", *words, "out=run")
+    assert "steps a second" in told.stdout, told.output
+    told = imitate("verify", "run")
+    assert told.exit_code == 0, told.output
+
+
 @pytest.mark.slow
 def test_runs_in_the_engine_are_the_same_bit_for_bit(imitate):
     imitate("learn-map", "out=map")
