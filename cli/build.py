@@ -113,7 +113,7 @@ class Bench:
         camera = make_offered(_plain(self.cfg["camera"], "size", "focal_px", "gaze"), offered)
         if (neck := self.cfg.get("neck")) and not self.cfg["dry_run"]:
             camera = make(neck, camera=camera, gaze=self.cfg["camera"]["gaze"])
-        guard = self._guard(arm.body)
+        guard = self.guard(arm.body)
         approach = Approach(**node["approach"]) if arm.live else None
         return Robot(arm, camera, guard, self.guided.mean(axis=0), self.period_ns, approach)
 
@@ -133,9 +133,10 @@ class Bench:
         """Have a robot from now on that senses what a recording tells, step by step."""
         body = make_offered({"_target_": BODY}, self.cfg["robot"]["arm"])
         home = self.guided.mean(axis=0)
-        self.robot = RecordedRobot(body, self._guard(body), home, self.period_ns, steps)
+        self.robot = RecordedRobot(body, self.guard(body), home, self.period_ns, steps)
 
-    def _guard(self, body: Body) -> Guard:
+    def guard(self, body: Body) -> Guard:
+        """What no command may make a body do."""
         node = self.cfg["robot"]
         shared = {"urdf": node["arm"]["urdf"], "base": node["arm"]["base"]}
         return guard_of(body, **shared, **node["guard"])

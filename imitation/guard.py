@@ -57,6 +57,12 @@ class Guard:
             )
         return posture
 
+    def opening_within_limits(self, wanted: float | None) -> float | None:
+        """What is left of a wanted opening of the gripper [0..1]; None, as it is, for no number."""
+        if wanted is None or np.isnan(wanted):
+            return None
+        return float(min(max(wanted, 0.0), 1.0))
+
     def limit(
         self, wanted: Array, before: Array, posture: Array, period: float
     ) -> tuple[Array, tuple[str, ...]]:
@@ -74,7 +80,8 @@ class Guard:
             return self._braked_clear(before, posture, period), ("not a number",)
         reasons: list[str] = []
         # All joints are slowed together, so that the arm keeps its direction.
-        excess = float((np.abs(wanted) / self.speed).max())
+        with np.errstate(over="ignore"):  # beyond all numbers is too fast as well
+            excess = float((np.abs(wanted) / self.speed).max())
         velocity = wanted / max(excess, 1.0)
         if excess > 1.0 + 1e-9:
             reasons.append("speed")

@@ -218,12 +218,14 @@ class Robot:
         blind = (self._trouble,) if self._trouble else ()
         wanted = np.zeros(len(self.home)) if blind else command.velocity
         limited, reasons = self.guard.limit(wanted, self._velocity, self._posture, self.period)
+        grip = None if blind else self.guard.opening_within_limits(command.grip)
         when = self._clock.now()
-        sent = self.arm.move(limited, command.grip, self.period)
+        sent = self.arm.move(limited, grip, self.period)
         applied = Applied(command.velocity, limited, sent, (*blind, *reasons), when)
         self._velocity = limited
         self._time_ns = self._clock.tick()
-        return self._sense(command.gaze), applied
+        turned = command.gaze is not None and np.isfinite(command.gaze).all()
+        return self._sense(command.gaze if turned else None), applied
 
     def truth(self) -> list[Truth]:
         """What was true at each sensing since this was last asked; empty on a real robot."""

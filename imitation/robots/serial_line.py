@@ -1,8 +1,13 @@
 """Serial lines. The one module that knows pyserial."""
 
+import termios
+
 import serial
 
 from imitation.device import DeviceError
+
+# What pyserial raises, or lets through, when a port goes away while it is used.
+LOST = (OSError, termios.error, TypeError)
 
 
 class SerialLine:
@@ -25,7 +30,7 @@ class SerialLine:
         """Send all of `data`."""
         try:
             self._port.write(data)
-        except serial.SerialException as error:
+        except LOST as error:
             raise self._cut(error) from error
 
     def receive(self, count: int, timeout: float) -> bytes:
@@ -33,14 +38,14 @@ class SerialLine:
         try:
             self._port.timeout = timeout
             return bytes(self._port.read(count))
-        except (serial.SerialException, TypeError) as error:
+        except LOST as error:
             raise self._cut(error) from error
 
     def drain(self) -> None:
         """Throw away what has come unasked."""
         try:
             self._port.reset_input_buffer()
-        except (serial.SerialException, OSError) as error:
+        except LOST as error:
             raise self._cut(error) from error
 
     def close(self) -> None:

@@ -12,7 +12,7 @@ from imitation.robots.katana.commands import TICK, Flag, as_segments
 from imitation.robots.katana.driver import Katana, refuse_crashed
 from imitation.robots.katana.frames import BadReplyError
 from imitation.robots.katana.sensors import GripperSensing
-from imitation.robots.katana.start import Settings, make_ready
+from imitation.robots.katana.start import FASTEST, Settings, make_ready
 
 
 class KatanaArm:
@@ -48,6 +48,7 @@ class KatanaArm:
         self._read_at = self._kept_up_at = clock()
         self._grip: float | None = None
         self._lost = self._looks = 0
+        self._ahead = np.round(self._sent)  # where the motors of a 300 were sent last
         self._busy_until = clock()  # with the segments it was sent
         self._nearby = (float("inf"), False)  # what the gripper sensed last
 
@@ -57,6 +58,7 @@ class KatanaArm:
             make_ready(self.katana, self.body, self._settings)
             self._ready = True
         self._sent = self.katana.positions().astype(float)
+        self._ahead = np.round(self._sent)
 
     def move(self, velocity: Array, grip: float | None, period: float) -> Array:
         """Move with `velocity` [rad/s] for `period` [s]; returns at once."""
@@ -70,7 +72,7 @@ class KatanaArm:
         if model.moves_all:
             self._all_towards(target, ticks)
         else:
-            self._each_towards(target, velocity)
+            self._each_towards(target, period)
         moved = (target - self._sent)[:5] / model.per_radian / period
         self._sent = target
         return np.asarray(moved)
@@ -134,7 +136,7 @@ class KatanaArm:
         if behind > settings.yielding:
             return 0.0  # it closes on something: press no harder
         to_go = model.gripper_encoder(self._grip) - self._sent[5]
-        step = abs(way) * settings.finger_speed * period
+        step = min(abs(way) * settings.finger_speed, FASTEST / TICK) * period
         return float(np.clip(to_go, -step, step))
 
     def _all_towards(self, target: Array, ticks: int) -> None:
@@ -155,13 +157,14 @@ class KatanaArm:
             self.katana.control(0, Flag.CLEAR, 0)
             target[:] = self.katana.positions()
 
-    def _each_towards(self, target: Array, velocity: Array) -> None:
-        ahead = target.copy()
-        ahead[:5] += velocity * self.katana.model.per_radian * self._settings.lead
-        ahead = np.clip(np.round(ahead), self._lower, self._upper)
-        for motor, moves in enumerate(np.round(target) != np.round(self._sent), 1):
+    def _each_towards(self, target: Array, period: float) -> None:
+        # Each motor brakes before its target: one that goes on is sent further.
+        further = (target - self._sent) / period * self._settings.lead
+        ahead = np.clip(np.round(target + further), self._lower, self._upper)
+        for motor, moves in enumerate(ahead != self._ahead, 1):
             if moves:
                 self.katana.move(motor, int(ahead[motor - 1]))
+        self._ahead = ahead
 
     def _look_at_the_rest(self) -> None:
         """The gripper's sensors and the motors' status, in turns: each look takes 40 ms."""

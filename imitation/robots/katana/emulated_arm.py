@@ -50,13 +50,11 @@ class EmulatedArm:
         """Let the motors move until `time` [s]."""
         if self._calibrated_at is not None and time >= self._calibrated_at:
             self._finish_calibration()
+        self.motors[-1].thing = self.sensors.thing
         ticks = int((time - self.time) / TICK)
         self.time += ticks * TICK
         for motor in self.motors:
             motor.advance(ticks)
-        gripper = self.motors[-1]
-        if gripper.doing is Doing.MOVING and self.sensors.stops(gripper.counter):
-            gripper.stop(Doing.HOLDING)
 
     def crash(self, number: int) -> None:
         """A motor collides: all stop, that one is blocked."""

@@ -52,6 +52,7 @@ class EmulatedMotor:
     speed: int = 30  # limit [encoders / tick]
     acceleration: int = 1  # [encoders / tick^2]
     stuck: bool = False
+    thing: int | None = None  # what the counter cannot get below
     target: float = 0.0  # true
     spline: deque[Segment] = field(default_factory=deque)
     waiting: list[Segment] = field(default_factory=list)  # in the buffer, not started
@@ -129,5 +130,7 @@ class EmulatedMotor:
     def _go(self, to: float) -> None:
         """Move to `to`, no further than the mechanical stops."""
         lowest, highest = self.data.limits
+        if self.thing is not None:
+            lowest = max(lowest, self.thing - self.shift)
         there = self.position if self.stuck else min(max(to, lowest), highest)
         self.velocity, self.position = there - self.position, there

@@ -3,6 +3,7 @@
 import time
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
+from threading import Lock
 
 from imitation.robots.faults import Fault, Faults
 from imitation.robots.katana.answers import Answers
@@ -48,15 +49,17 @@ class KatanaEmulator:
     _began: float | None = None
     _refused: RefusalError = field(default_factory=lambda: RefusalError(0, 0, "no error"))
     _asked: int = 0  # letter of the request before
+    _one_at_a_time: Lock = field(default_factory=Lock)
     _crashed: list[Fault] = field(default_factory=list)  # each crash happens once
 
     def pass_time(self) -> float:
         """Let the motors go on until now; returns the time since the first request [s]."""
         if self._began is None:
             return 0.0
-        now = (self.clock() - self._began) * self.speed
-        self.arm.advance_to(now)
-        self._break(now)
+        with self._one_at_a_time:  # a twin's world asks too
+            now = (self.clock() - self._began) * self.speed
+            self.arm.advance_to(now)
+            self._break(now)
         return now
 
     def heard(self, data: bytes) -> Iterator[bytes]:

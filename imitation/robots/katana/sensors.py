@@ -50,10 +50,6 @@ class EmulatedSensors:
     frozen: bool = False
     _told: tuple[int, ...] = NOTHING_THERE
 
-    def stops(self, gripper: int) -> bool:
-        """Whether the fingers are stopped at this encoder by what is between them."""
-        return self.thing is not None and gripper < self.thing
-
     def read(self, gripper: int, time: float) -> tuple[int, ...]:
         """All 16, when the gripper is at this encoder."""
         if self.frozen:
