@@ -16,6 +16,7 @@ from imitation.recording.picture_columns import Batch, Overview
 from imitation.recording.rerun_view.columns import send
 
 OBJECT = "arm/object"
+FRAME = "object"
 
 
 class BodyDrawing:
@@ -30,8 +31,9 @@ class BodyDrawing:
         self._tree = _tree(shown.urdf)
         self._joints = list(shown.topics["/joint_states"].names)
         told = yaml.safe_load(shown.attachments.get("config.yaml", b"")) or {}
-        fingers = told.get("robot", {}).get("arm", {}).get("fingers") or []
-        self._fingers = _ranges(shown.urdf, fingers)
+        arm = told.get("robot", {}).get("arm", {})
+        self._base = np.array(arm.get("base", (0.0, 0.0, 0.0)))
+        self._fingers = _ranges(shown.urdf, (arm.get("gripper") or {}).get("joints", []))
         self._object: dict[str, Any] | None = told.get("object")
 
     def draw_constants(self, stream: rr.RecordingStream) -> None:
@@ -44,7 +46,7 @@ class BodyDrawing:
                 colors=[[round(255 * part) for part in self._object["colour"]]],
                 fill_mode="solid",
             )
-            stream.log(OBJECT, look, static=True)
+            stream.log(OBJECT, look, rr.CoordinateFrame(FRAME), static=True)
 
     def draw(self, stream: rr.RecordingStream, batch: Batch) -> None:
         """Draw some steps."""
@@ -67,10 +69,12 @@ class BodyDrawing:
             at = [(pose.position.x, pose.position.y, pose.position.z) for pose in poses]
             turns = [pose.orientation for pose in poses]
             where = rr.Transform3D.columns(
-                translation=at,
+                translation=np.array(at) - self._base,
                 quaternion=[(turn.x, turn.y, turn.z, turn.w) for turn in turns],
+                parent_frame=[self._tree.root_link().name] * len(at),
+                child_frame=[FRAME] * len(at),
             )
-            send(stream, OBJECT, batch.times("/truth/object"), where)
+            send(stream, "arm/joints/object", batch.times("/truth/object"), where)
 
     def _opened(self, batch: Batch) -> Array:
         """Angle of each finger, (n, fingers) [rad]."""
