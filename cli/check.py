@@ -137,7 +137,7 @@ def in_words(
     if first["type"] == "extra_forbidden":
         above, _, _ = key.rpartition(".")
         inside = f"{above}." if above else ""
-        known = [inside + name for name in valid] if valid else comments(command)
+        known = comments(command) if command else [inside + name for name in valid]
         return f"unknown key {key}{nearest(key, known)}"
     if first["type"] == "missing":
         return f"key {'.'.join(map(str, (*path, *first['loc'])))} is missing from the configuration"

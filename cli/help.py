@@ -53,6 +53,8 @@ EXAMPLES = {
         ("imitate mimic map=RUN selection=soft demonstrator=line", "between the areas too"),
         ("imitate mimic map=RUN demonstrator.period=4 duration=14", "a quick gesture"),
         ("imitate mimic map=RUN dynamics.tau=0.3", "smoother, later"),
+        ("imitate mimic map=RUN experiment=mimicry_controls", "what makes the imitation"),
+        ("imitate mimic map=RUN experiment=mirror", "Nielsen's mirror"),
     ],
     "figure": [
         ("imitate figure fig3a", "all seeds; exit code 1 when a claim fails"),

@@ -150,6 +150,12 @@ RANGES: dict[str, dict[str, Any]] = {
         "place": Pair,
         "at": NotNegative,
         "stay": Positive | None,
+        "ends": Annotated[list[Pair], Within(min_length=2, max_length=2)],
+        "begins": NotNegative,
+        "lasts": Positive,
+        "switch": NotNegative,
+        "deviation": float,
+        "onset": Positive,
     },
     "neck": {
         "baud": Literal[2400, 9600, 38400, 115200],

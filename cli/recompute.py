@@ -100,7 +100,8 @@ def _reaching(bench: Bench) -> Staged:
 
 def _mimicking(bench: Bench) -> Staged:
     learned = load_map(Path(bench.cfg["map"])).map
-    return learned.field, stages.mimicking(bench, learned)
+    stage = stages.drawing if bench.cfg["mirror"] else stages.mimicking
+    return learned.field, stage(bench, learned)
 
 
 def _watching(bench: Bench) -> Staged:

@@ -323,6 +323,26 @@ class Mimicry(Section):
     required: Share
 
 
+class MirrorExperiment(Section):
+    """`mirror`."""
+
+    deviations: Annotated[list[NotNegative], Within(min_length=1)]
+    window: Positive
+    after: Positive
+    settled: Positive
+
+
+class Controls(Section):
+    """`controls`."""
+
+    look: str
+    still: Positive
+    permutations: Count
+    quantile: Share
+    batch: Count
+    workers: Count
+
+
 class Mimic(Common):
     """`imitate mimic`."""
 
@@ -331,7 +351,10 @@ class Mimic(Common):
     duration: Positive | None
     shift: Pair
     selection: Named
+    controller: Named | None = None  # of the arm that draws before a mirror
     mimic: Mimicry
+    mirror: MirrorExperiment | None
+    controls: Controls | None
 
 
 class Figure(Section):

@@ -6,9 +6,12 @@ from inspect import signature
 import numpy as np
 
 from cli.build import Bench, generator
+from imitation.controllers.corrected_aim import CorrectedAim
+from imitation.robots.gestures import Mirrored
 from imitation.sample import Sample
 from imitation.stages.babbling import Babbling, Curiosity
 from imitation.stages.demo_record import Watching, demo_record
+from imitation.stages.draw import draw
 from imitation.stages.learn_map import Learner, LearningRun, learn_map
 from imitation.stages.mimic import mimic
 from imitation.stages.reach import Reaching, Trial, reach
@@ -57,3 +60,19 @@ def mimicking(bench: Bench, learned: VisuoMotorMap) -> Iterator[Sample]:
         film = "path" in bench.cfg["camera"]
         duration = np.inf if film else bench.cfg["mimic"]["endless"]
     return mimic(bench.robot, perception, learned, bench.dynamics, bench.selection, duration)
+
+
+def drawing(bench: Bench, learned: VisuoMotorMap) -> Iterator[Sample]:
+    """The steps of drawing the line that the demonstrator's mirror is for."""
+    perception, line = bench.perception(learned.field), mirror_of(bench).line
+    controller, duration = bench.controller, bench.cfg["duration"]
+    assert isinstance(controller, CorrectedAim)
+    return draw(bench.robot, perception, learned, bench.dynamics, controller, line.at, duration)
+
+
+def mirror_of(bench: Bench) -> Mirrored:
+    """The mirror that experiment=mirror needs."""
+    gesture = bench.demonstrator.gesture if bench.demonstrator else None
+    if not isinstance(gesture, Mirrored):
+        raise ValueError("experiment=mirror needs demonstrator=mirror; leave demonstrator= out")
+    return gesture

@@ -45,6 +45,12 @@ class Aim:
         self._target = self._expected = target
         self._error: Array | None = None
 
+    def move(self, learned: VisuoMotorMap, target: Array) -> None:
+        """Aim at `target` (2,) [px], which has moved: what is known of the error stays."""
+        error, expected = self._error, self._expected
+        Aim.begin(self, learned, target)
+        self._error, self._expected = error, expected
+
     def correct(self, posture: Array, hand: Array) -> None:
         """Take in that `posture` (n_joints,) [rad] showed the hand at `hand` (2,) [px]."""
         expected = self._target + (posture - self._posture) @ self._reading

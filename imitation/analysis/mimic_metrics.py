@@ -95,9 +95,18 @@ class MimicMetrics:
         shown, own = np.array(self.shown).reshape(-1, 2), np.array(self.own).reshape(-1, 2)
         return shown[caught_up], own[caught_up]
 
+    def travelled(self) -> float:
+        """How far the robot's hand went from where it was at the start, at most [px]."""
+        own = np.array(self.own)
+        return float(np.linalg.norm(own - own[0], axis=1).max())
+
     def lag(self) -> int:
         """By how many steps the robot's hand comes later."""
         return lag_steps(*self.paths(), round(self.judging.largest_lag / self.period))
+
+    def correlation(self) -> float:
+        """Of the two paths, after the lag."""
+        return correlation(*lag_taken_out(*self.paths(), self.lag()))
 
     def result(self, selection: str) -> dict[str, Any]:
         """What `metrics.json` says."""

@@ -30,6 +30,7 @@ class Shown:
 
     mark: Array | None  # centre of the mark on the hand, (3,) [m]; None: no hand in sight
     carrying: bool = False  # the object moves with the hand
+    instead: bool = False  # it is seen in the place of the robot's own hand, as by a mirror
 
 
 class Demonstrator(Protocol):
@@ -70,9 +71,10 @@ class HandOverTable:
         """What is shown `time` seconds after the episode began."""
         place = self.gesture.place(time)
         if place is None:
-            return Shown(None)
+            return Shown(None, instead=self.gesture.instead(time))
         mark = self.space.unproject(place, self.eye, self.height)
-        return Shown(mark + np.array((0.0, 0.0, self.higher)), self.gesture.carries(time))
+        raised = mark + np.array((0.0, 0.0, self.higher))
+        return Shown(raised, self.gesture.carries(time), self.gesture.instead(time))
 
     def place(self, time: float) -> Array | None:
         """Where the hand's mark truly is in visual space then, (2,) [px]; None: not shown."""

@@ -20,9 +20,25 @@ class Gesture(Protocol):
     def carries(self, time: float) -> bool:
         """Whether it carries something then."""
 
+    def instead(self, time: float) -> bool:
+        """Whether it is seen in the place of the robot's own hand then."""
+
 
 @dataclass(frozen=True)
-class Laps:
+class Beside:
+    """What most gestures are: beside the robot's own hand, with nothing in the hand."""
+
+    def carries(self, time: float) -> bool:
+        """It never does."""
+        return False
+
+    def instead(self, time: float) -> bool:
+        """It never is."""
+        return False
+
+
+@dataclass(frozen=True)
+class Laps(Beside):
     """The same figure again and again.
 
     Args:
@@ -42,13 +58,9 @@ class Laps:
         done = max(time - self.start, 0.0) / self.period
         return self.figure(1.0 if self.laps is not None and done >= self.laps else done % 1.0)
 
-    def carries(self, time: float) -> bool:
-        """It never does."""
-        return False
-
 
 @dataclass(frozen=True)
-class Waypoints:
+class Waypoints(Beside):
     """From one place to the next, each left and entered smoothly; the same place twice is a rest.
 
     Args:
@@ -78,6 +90,60 @@ class Waypoints:
     def carries(self, time: float) -> bool:
         """Whether it carries something then."""
         return self.carried[0] <= time < self.carried[1]
+
+
+@dataclass(frozen=True)
+class Straight:
+    """Along a straight line at an even pace.
+
+    Args:
+        ends: Where it begins and where it ends, (2, 2) [px].
+        begins: When it begins; until then it is at its beginning [s].
+        lasts: How long it takes [s].
+    """
+
+    ends: Array
+    begins: float
+    lasts: float
+
+    @property
+    def aside(self) -> Array:
+        """To the right of whoever goes along it, (2,), of length 1."""
+        x, y = self.ends[1] - self.ends[0]
+        return np.asarray(np.array((-y, x)) / np.hypot(x, y))
+
+    def at(self, time: float) -> Array:
+        """Where it is, (2,) [px]."""
+        share = min(max((time - self.begins) / self.lasts, 0.0), 1.0)
+        return np.asarray(self.ends[0] + share * (self.ends[1] - self.ends[0]))
+
+
+@dataclass(frozen=True)
+class Mirrored(Beside):
+    """A hand that from some moment on is seen in the place of the robot's own, a little aside.
+
+    Args:
+        line: What the robot draws.
+        switch: When the mirror turns [s].
+        deviation: To the right of the line [px].
+        onset: It comes to deviate so far within this time [s].
+    """
+
+    line: Straight
+    switch: float
+    deviation: float
+    onset: float
+
+    def place(self, time: float) -> Array | None:
+        """Where it is, (2,) [px]; None until the mirror turns."""
+        if not self.instead(time):
+            return None
+        grown = min((time - self.switch) / self.onset, 1.0)
+        return self.line.at(time) + grown * self.deviation * self.line.aside
+
+    def instead(self, time: float) -> bool:
+        """Whether the mirror has turned."""
+        return time >= self.switch
 
 
 def eased(share: float) -> float:
@@ -155,6 +221,19 @@ def trigger(place: Numbers, at: float, stay: float | None) -> Gesture:
     """A hand that appears and is at rest; after `stay` seconds it is gone (None: it stays)."""
     times = np.array((at, at + (1.0 if stay is None else stay)))
     return Waypoints(times, np.array((place, place), dtype=float), stays=stay is None)
+
+
+def mirror(
+    ends: Sequence[Numbers],
+    begins: float,
+    lasts: float,
+    switch: float,
+    deviation: float,
+    onset: float,
+) -> Gesture:
+    """Nielsen's mirror; see `Straight` and `Mirrored` for the values."""
+    line = Straight(np.array(ends, dtype=float), begins, lasts)
+    return Mirrored(line, switch, deviation, onset)
 
 
 def nobody() -> None:

@@ -75,10 +75,11 @@ class MarkOverTable:
     radius: float  # [m]
     colour: Pixel
     _others: list[tuple[Array, float, Pixel]] = field(default_factory=list, init=False)
+    _covered: bool = field(default=False, init=False)  # the arm's own mark
 
     def show(self, shown: Shown, hand: Hand) -> None:
         """Have a demonstrator's hand before the table, or none."""
-        self._others = []
+        self._others, self._covered = [], shown.instead
         if shown.mark is not None:
             self._others = [(shown.mark, hand.radius, pixel(hand.colour))]
 
@@ -86,7 +87,8 @@ class MarkOverTable:
         """The picture from `eye` [m] along `gaze` [rad], RGB."""
         width, height = space.size
         picture = np.full((height, width, 3), TABLE, dtype=np.uint8)
-        marks = [(self.arm.mark_position(), self.radius, self.colour), *self._others]
+        own = [] if self._covered else [(self.arm.mark_position(), self.radius, self.colour)]
+        marks = [*own, *self._others]
         turn = rotation(gaze).T
         seen = [(turn @ (position - eye), radius, colour) for position, radius, colour in marks]
         for (right, down, depth), radius, colour in sorted(seen, key=lambda mark: -mark[0][2]):

@@ -114,7 +114,8 @@ def test_an_experiment_composes_for_a_command_at_least(name):
 
     composed = 0
     with initialize_config_module("conf", version_base="1.3"):
-        for command, more in (("learn-map", []), ("reach", ["map=somewhere"])):
+        given = ["map=somewhere"]
+        for command, more in (("learn-map", []), ("reach", given), ("mimic", given)):
             # One about controllers does not fit learn-map.
             with suppress(ConfigCompositionException):
                 cfg = compose(command.replace("-", "_"), [f"experiment={name}", *more])

@@ -51,3 +51,46 @@ def test_nonsense_is_refused(imitate, learned, word):
     result = imitate("mimic", f"map={learned}", "robot=ideal", word)
     assert result.exit_code == 2
     assert len(result.stderr.strip().splitlines()) == 1
+
+
+def test_the_controls_show_what_makes_the_imitation(imitate, learned):
+    few = ("controls.permutations=6", "controls.batch=6", "demonstrator.period=6", "duration=8")
+    words = ("robot=ideal", "experiment=mimicry_controls", *few, "out=run")
+    result = imitate("mimic", f"map={learned}", *words)
+    assert result.exit_code == 0, result.output
+    found = told(imitate.folder / "run")["controls"]
+    assert len(found["shuffled_correlation"]) == 6
+    assert found["shuffled_quantile"] < told(imitate.folder / "run")["correlation"]
+    assert found["travelled_px"]["hand shown"] > 30
+    for name in ("no hand shown", "self and other told apart"):
+        assert found["travelled_px"][name] < 3
+        assert name in result.stdout
+    assert (imitate.folder / "run/run.mcap").is_file()
+
+
+def test_a_control_that_does_not_come_out_is_exit_code_1(imitate, learned):
+    few = ("controls.permutations=1", "duration=4", "controls.look=tag")
+    words = ("robot=ideal", "experiment=mimicry_controls", *few)
+    result = imitate("mimic", f"map={learned}", *words)
+    assert result.exit_code == 1
+    assert "told apart" in result.stderr
+
+
+def test_before_the_mirror_the_arm_corrects_to_the_other_side(imitate, learned):
+    words = ("robot=ideal", "experiment=mirror", "mirror.deviations=[0,5,20]", "out=run")
+    result = imitate("mimic", f"map={learned}", *words)
+    assert result.exit_code == 0, result.output
+    straight, little, much = told(imitate.folder / "run")["mirror"]
+    assert abs(straight["drawn_px"]) < 3
+    assert much["drawn_px"] < little["drawn_px"] < -1
+    assert much["followed_px"] > little["followed_px"] > 1
+    assert imitate("verify", "run").exit_code == 0
+
+
+@pytest.mark.parametrize("words", [("mirror", "circle"), ("mimicry_controls", "none")])
+def test_an_experiment_without_its_demonstrator_is_refused(imitate, learned, words):
+    experiment, shown = words
+    given = (f"experiment={experiment}", f"demonstrator={shown}")
+    result = imitate("mimic", f"map={learned}", "robot=ideal", *given)
+    assert result.exit_code == 2
+    assert "demonstrator" in result.stderr

@@ -56,5 +56,6 @@ class BulletScene:
 
     def show(self, shown: Shown, hand: Hand) -> None:
         """Have a demonstrator's hand in the world, or none."""
+        self.world.cover_mark(shown.instead)
         self.world.show_other(shown.mark, hand.radius, hand.colour)
         self.world.carry_can(shown.mark if shown.carrying else None)

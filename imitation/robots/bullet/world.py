@@ -17,6 +17,7 @@ with silence():
     import pybullet
     import pybullet_data
 
+OUT_OF_SIGHT = np.array((0.0, 0.0, -1.0))  # below the table [m]
 WHITE = 0xFFFFFFFF  # what TinyRenderer leaves where nothing is drawn
 FLAT_LIGHT = {
     "shadow": 0,
@@ -125,6 +126,7 @@ class World:
         if self._gripper:
             self._gripper.place(opening)
         self._mark = self._sphere(self.mark.radius, self.mark.colour)
+        self._covered = False
         self.carry_mark()
         self._other: int | None = None
         self._can = StandingCan(self.can, self._client) if self.can else None
@@ -264,8 +266,14 @@ class World:
     def carry_mark(self) -> Array:
         """Put the mark where the hand is; returns its centre, (3,) [m]."""
         position = self.mark_position()
-        self._put(self._mark, position)
+        self._put(self._mark, OUT_OF_SIGHT if self._covered else position)
         return position
+
+    def cover_mark(self, covered: bool) -> None:
+        """Take the mark out of sight, or have it on the hand again."""
+        if covered != self._covered:
+            self._covered = covered
+            self.carry_mark()
 
     def show_other(self, position: Array | None, radius: float, colour: Sequence[float]) -> None:
         """Put the mark on another's hand at `position` (3,) [m]; None: it is not in sight."""

@@ -1,0 +1,118 @@
+"""Mimic runs that are only measured: with other hands, with shuffled maps, before a mirror."""
+
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import closing
+from copy import copy
+from dataclasses import dataclass, replace
+from inspect import signature
+
+import numpy as np
+
+from cli.build import Bench, Config, generator
+from cli.stages import drawing, mimicking, mirror_of
+from imitation.analysis.mimic_metrics import Judging, MimicMetrics
+from imitation.analysis.mirror import Aside, aside
+from imitation.arrays import Array, Mask
+from imitation.perception import Percept, Perception
+from imitation.robot import Observation
+from imitation.robots.blind_camera import BlindCamera
+from imitation.sample import Sample
+from imitation.stages.mimic import mimic
+from imitation.visuo_motor_map import VisuoMotorMap
+
+Stage = Callable[[Bench, VisuoMotorMap], Iterator[Sample]]
+
+
+def judged(bench: Bench, learned: VisuoMotorMap) -> MimicMetrics:
+    """What will measure a mimic run of this bench."""
+    shown, soft = bench.demonstrator, bench.cfg["selection"]["name"] == "soft"
+    asked, settings = signature(Judging).parameters, bench.cfg["mimic"]
+    judging = Judging(**{name: settings[name] for name in asked})
+    place = shown.place if shown else None
+    return MimicMetrics(learned, place, soft, bench.robot.period, judging)
+
+
+def measured(cfg: Config, learned: VisuoMotorMap) -> MimicMetrics:
+    """A whole mimic run, measured."""
+    bench = Bench(cfg)
+    with closing(bench.robot):
+        metrics = judged(bench, learned)
+        for sample in mimicking(bench, learned):
+            metrics.add(sample, bench.robot.truth())
+    return metrics
+
+
+@dataclass(frozen=True)
+class Remembered(Perception):
+    """Sees at each step what was seen at the same step of another run."""
+
+    percepts: Iterator[Percept]
+
+    def perceive(self, observation: Observation, attended: Mask | None = None) -> Percept:
+        """What was seen then."""
+        return replace(next(self.percepts), time_ns=observation.time_ns)
+
+
+def shuffled_correlations(
+    numbers: Sequence[int], cfg: Config, learned: VisuoMotorMap, percepts: Sequence[Percept]
+) -> list[float]:
+    """Correlations of the robot's path with the demonstrated one when its map is shuffled.
+
+    The arm, its engine and its guard are those of the run; so is what is seen, because with the
+    own hand out of view it does not depend on what the arm does.
+
+    Args:
+        numbers: Of the shuffled maps.
+        cfg: Of the run.
+        learned: Its map.
+        percepts: What was seen in it.
+    """
+    bench, found = Bench(cfg), []
+    with closing(bench.robot) as robot:
+        robot.camera = BlindCamera(robot.camera)
+        duration = len(percepts) * robot.period - robot.period / 2
+        for number in numbers:
+            mixed = shuffled(learned, generator(cfg["seed"], f"shuffle {number}"))
+            metrics = judged(bench, learned)
+            seeing = Remembered(**bench.perception(learned.field).__dict__, percepts=iter(percepts))
+            for sample in mimic(robot, seeing, mixed, bench.dynamics, bench.selection, duration):
+                metrics.add(sample, robot.truth())
+            found.append(metrics.correlation())
+    return found
+
+
+def shuffled(learned: VisuoMotorMap, rng: np.random.Generator) -> VisuoMotorMap:
+    """`learned` with what its clusters hold dealt out anew among the learned areas."""
+    mixed = copy(learned)
+    mixed.postures = learned.postures.copy()
+    rows, columns = np.nonzero(learned.learned)
+    dealt = rng.permutation(len(rows))
+    mixed.postures[rows, columns] = learned.postures[rows[dealt], columns[dealt]]
+    return mixed
+
+
+def mirrored(cfg: Config, learned: VisuoMotorMap) -> list[Aside]:
+    """What each deviation of the hand in the mirror does."""
+    return [_aside(cfg, learned, deviation) for deviation in cfg["mirror"]["deviations"]]
+
+
+def _aside(cfg: Config, learned: VisuoMotorMap, deviation: float) -> Aside:
+    cfg = {**cfg, "demonstrator": {**cfg["demonstrator"], "deviation": deviation}}
+    asked, mirror = cfg["mirror"], mirror_of(Bench(cfg))
+    switch, window, to_the_side = mirror.switch, asked["window"], mirror.line.aside
+    drawn, followed = _path(cfg, learned, drawing), _path(cfg, learned, mimicking)
+    before = aside(*drawn, to_the_side, switch - window / 2, window)
+    after = aside(*drawn, to_the_side, switch + asked["after"], window)
+    there = aside(*followed, to_the_side, switch + asked["settled"], window)
+    return Aside(deviation, after - before, there - float(mirror.line.ends[0] @ to_the_side))
+
+
+def _path(cfg: Config, learned: VisuoMotorMap, stage: Stage) -> tuple[Array, Array]:
+    """Times (n,) [s] and places of the true hand (n, 2) [px]."""
+    bench, times, places = Bench(cfg), [], []
+    with closing(bench.robot) as robot:
+        for _ in stage(bench, learned):
+            for truth in robot.truth():
+                times.append(truth.time_ns / 1e9)
+                places.append(truth.hand_px)
+    return np.array(times), np.array(places)
