@@ -203,6 +203,21 @@ def twin(
     raise typer.Exit(attempt(lambda: twin(asked)))
 
 
+@app.command()
+def doctor(
+    words: Annotated[
+        list[str] | None,
+        typer.Argument(metavar="KEY=VALUE", help="Whose devices, such as robot=katana."),
+    ] = None,
+    as_json: Annotated[bool, typer.Option("--json", help="For programs.")] = False,
+) -> None:
+    """Look whether everything works here, and the devices of robot=...; nothing moves."""
+    from cli.doctor import doctor
+    from cli.job import attempt
+
+    raise typer.Exit(attempt(lambda: doctor(words or [], as_json)))
+
+
 def main() -> Any:
     """Run the program."""
     return app()

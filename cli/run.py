@@ -23,10 +23,11 @@ from cli.progress import ProgressReport
 from cli.provenance import run_record, sha256
 from imitation.analysis.cadence import Cadence
 from imitation.analysis.frame_count import FrameCount
+from imitation.device import DeviceError
 from imitation.recording.mcap_recording import Recorder
 from imitation.robot import SECOND, Truth
 from imitation.robots.bullet.world import find_urdf
-from imitation.sample import Sample
+from imitation.sample import Event, Sample
 from imitation.visual_field import VisualField
 
 Watcher = Callable[[Sample, list[Truth]], None]
@@ -117,14 +118,21 @@ class Run:
                 watchers.append(live.show)
             report = open_until_the_end.enter_context(ProgressReport(self.command))
             confirm_motion(self.bench)
-            for sample in samples:
-                truths = robot.truth()
-                for one in (recorder.write, *watchers):
-                    one(sample, truths)
-                report.step(sample)
-                self._note(sample)
-                if interruption.wanted:
-                    break
+            sample: Sample | None = None
+            try:
+                for sample in samples:
+                    truths = robot.truth()
+                    for one in (recorder.write, *watchers):
+                        one(sample, truths)
+                    report.step(sample)
+                    self._note(sample)
+                    if interruption.wanted:
+                        break
+            except DeviceError as error:
+                robot.close()  # at once: the arm freezes
+                if sample:
+                    recorder.tell(sample, Event("device", str(error)))
+                raise
         if interruption.wanted:
             raise KeyboardInterrupt
 

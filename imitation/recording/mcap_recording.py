@@ -13,9 +13,9 @@ from imitation.recording.digest import Digest
 from imitation.recording.fifo import Worker, WorkFailedError
 from imitation.recording.mcap_file import McapFile
 from imitation.recording.mcap_reading import Contents, chunks, contents
-from imitation.recording.step_messages import Message, StepMessages, Topic
+from imitation.recording.step_messages import Message, StepMessages, Topic, event_message
 from imitation.robot import SECOND, Body, Truth
-from imitation.sample import Sample
+from imitation.sample import Event, Sample
 from imitation.visual_field import VisualField
 
 LONGEST_QUEUE_NS = SECOND // 4
@@ -67,7 +67,7 @@ class Recorder:
             self._file.begin(metadata, attachments)
         except OSError as error:
             raise self._failure(error) from error
-        self._worker: Worker[tuple[Sample, Sequence[Truth]]] = Worker(
+        self._worker: Worker[tuple[Sample, Sequence[Truth] | Event]] = Worker(
             self._write, self._file.close_old_chunk, waiting, None if reproducible else 0.1
         )
 
@@ -78,8 +78,19 @@ class Recorder:
             RecorderError: Writing failed, now or before, or the queue stayed full for longer
                 than `patience`: put the robot to rest and end the run.
         """
+        self._put((sample, truths))
+
+    def tell(self, last: Sample, event: Event) -> None:
+        """Record what happened after the `last` step.
+
+        Raises:
+            RecorderError: As `write` does.
+        """
+        self._put((last, event))
+
+    def _put(self, what: tuple[Sample, Sequence[Truth] | Event]) -> None:
         try:
-            self._worker.put((sample, truths), self._patience)
+            self._worker.put(what, self._patience)
         except queue.Full as full:
             raise RecorderError(
                 f"{self.path.name} cannot keep up: nothing written for {self._patience} s; "
@@ -121,9 +132,12 @@ class Recorder:
     ) -> None:
         self.close()
 
-    def _write(self, step: tuple[Sample, Sequence[Truth]]) -> None:
-        sample, truths = step
-        self._file.add_step(sample, self._steps.of(sample, truths))
+    def _write(self, step: tuple[Sample, Sequence[Truth] | Event]) -> None:
+        sample, more = step
+        if isinstance(more, Event):
+            self._file.add_step(sample, [event_message(sample.applied.time_ns, more)])
+        else:
+            self._file.add_step(sample, self._steps.of(sample, more))
 
     def _failure(self, error: BaseException) -> RecorderError:
         self._failed = True

@@ -89,7 +89,7 @@ class StepMessages:
         yield from self._decision(sample.seen.time_ns, sample.decision)
         yield from self._applied(sample.applied)
         for event in sample.events:
-            yield _event(sample.seen.time_ns, event)
+            yield event_message(sample.seen.time_ns, event)
         for truth in truths:
             yield from _truth(truth)
 
@@ -140,7 +140,7 @@ class StepMessages:
         yield Message("/joint_command/sent", now, fill(sent, doubles(applied.sent)))
         if applied.reasons != self._reasons:
             self._reasons = applied.reasons
-            yield _event(now, _limitation(applied.reasons))
+            yield event_message(now, _limitation(applied.reasons))
 
 
 def _limitation(reasons: tuple[str, ...]) -> Event:
@@ -150,7 +150,8 @@ def _limitation(reasons: tuple[str, ...]) -> Event:
     return Event("limited", f"The guard limits the velocity: {why}.", {"reasons": list(reasons)})
 
 
-def _event(time_ns: int, event: Event) -> Message:
+def event_message(time_ns: int, event: Event) -> Message:
+    """The message of an event."""
     data = messages.log(time_ns, event.kind, event.sentence, event.facts)
     return Message("/events", time_ns, data)
 

@@ -70,9 +70,7 @@ class Ssc32Neck:
     ) -> None:
         self._line, self._servos, self._straight = line, servos, straight
         self._speed, self._timeout, self._watch, self._clock = speed, timeout, watch, clock
-        self.version = self._ask("VER", until=b"\r").decode("ascii", "replace").strip()
-        if not self.version.startswith("SSC32"):
-            raise DeviceError(f"at {line.name} is no SSC-32: it says {self.version[:20]!r} to VER")
+        self.version = board_version(line, timeout)
         self._from: list[float] = [servo.centre for servo in servos]
         self._to = [servo.centre for servo in servos]
         self._began, self._lasts, self._looked = clock(), 0.0, clock()
@@ -116,7 +114,7 @@ class Ssc32Neck:
         if now < self._began + self._lasts + self._watch:
             return
         channels = "".join(f"QP{servo.channel}" for servo in self._servos)
-        held = self._ask(channels, count=len(self._servos))
+        held = ask(self._line, channels, self._timeout, count=len(self._servos))
         for servo, pulse, one in zip(self._servos, self._to, held, strict=True):
             if abs(one * STEP - pulse) > STEP:
                 raise DeviceError(
@@ -145,19 +143,33 @@ class Ssc32Neck:
     def _tell(self, line: str) -> None:
         self._line.send(line.encode() + b"\r")
 
-    def _ask(self, line: str, until: bytes = b"", count: int = 0) -> bytes:
-        self._line.drain()
-        self._tell(line)
-        received = b""
-        while len(received) < count or (until and not received.endswith(until)):
-            more = self._line.receive(1, self._timeout)
-            if not more:
-                raise DeviceError(
-                    f"the neck at {self._line.name} is silent after {line}: check its power, its "
-                    "cable and its baud rate (neck.baud)"
-                )
-            received += more
-        return received
+
+def board_version(line: Line, timeout: float) -> str:
+    """What the board at the other end of `line` says it is.
+
+    Raises:
+        DeviceError: It says nothing, or is none.
+    """
+    told = ask(line, "VER", timeout, until=b"\r").decode("ascii", "replace").strip()
+    if not told.startswith("SSC32"):
+        raise DeviceError(f"at {line.name} is no SSC-32: it says {told[:20]!r} to VER")
+    return told
+
+
+def ask(line: Line, asked: str, timeout: float, until: bytes = b"", count: int = 0) -> bytes:
+    """What the board replies: so many bytes, or all `until` its end."""
+    line.drain()
+    line.send(asked.encode() + b"\r")
+    received = b""
+    while len(received) < count or (until and not received.endswith(until)):
+        more = line.receive(1, timeout)
+        if not more:
+            raise DeviceError(
+                f"the neck at {line.name} is silent after {asked}: check its power, its cable "
+                "and its baud rate (neck.baud)"
+            )
+        received += more
+    return received
 
 
 class CameraOnNeck:

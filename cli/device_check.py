@@ -1,0 +1,142 @@
+"""Looks at the devices of `robot=...`: they are read, nothing is told to move."""
+
+import time
+from collections.abc import Iterator
+from contextlib import closing
+from pathlib import Path
+
+import numpy as np
+
+from cli.build import Bench, Config
+from cli.findings import FAIL, Finding, Suspicious, look
+from imitation.robot import SECOND, Arm, Camera, Observation, Shot
+from imitation.robots.katana.arm import KatanaArm
+from imitation.robots.katana.commands import Status
+from imitation.robots.serial_line import SerialLine
+from imitation.robots.ssc32 import board_version
+
+SERIAL = ("ttyS[0-9]", "ttyUSB*", "ttyACM*")
+WATCH = 1.0  # how long the camera is watched [s]
+DARK, BRIGHT = 30, 225  # mean brightness of a picture that can be seen on
+
+
+def device_findings(cfg: Config) -> Iterator[Finding]:
+    """What is found of the arm, its camera and its neck."""
+    yield look("ports", _ports)
+    bench = Bench({**cfg, "neck": None})
+    made = look("arm", lambda: _arm(bench), device=True)
+    yield made
+    if made.verdict == FAIL:
+        yield look("neck", lambda: _neck(cfg), device=True)
+        return
+    robot, real = bench.robot, bench.robot.arm
+    try:
+        if not real.live:
+            robot.reset()
+        yield look("joints", lambda: _joints(real), device=True)
+        if isinstance(real, KatanaArm):
+            yield look("motors", lambda: _motors(real), device=True)
+            yield look("gripper", lambda: _gripper(real), device=True)
+        yield look("camera", lambda: _camera(robot.camera, bench), device=True)
+        yield look("neck", lambda: _neck(cfg), device=True)
+    finally:
+        robot.close()
+
+
+def _ports() -> str:
+    found = sorted(str(path) for name in SERIAL for path in Path("/dev").glob(name))
+    cameras = sorted(str(path) for path in Path("/dev").glob("video*"))
+    return (
+        f"serial: {', '.join(found) or 'none'} (robot.arm.address=PORT, neck.port=PORT); "
+        f"cameras: {', '.join(cameras) or 'none'} (camera.device=DEVICE)"
+    )
+
+
+def _arm(bench: Bench) -> str:
+    arm = bench.robot.arm
+    if not isinstance(arm, KatanaArm):
+        return f"{arm.body.name}, {'real' if arm.live else 'simulated'}"
+    major, minor = arm.identity.firmware
+    return f"{arm.identity.text}, firmware {major}.{minor}, model {arm.katana.model.name}"
+
+
+def _joints(arm: Arm) -> str:
+    posture, body = arm.read().posture, arm.body
+    told = ", ".join(f"{np.degrees(angle):.0f}°" for angle in posture)
+    beyond = (posture < body.lower) | (posture > body.upper)
+    if beyond.any():
+        joint = int(np.argmax(beyond))
+        raise Suspicious(
+            f"{told}: {body.joint_names[joint]} is beyond its limits "
+            f"({np.degrees(body.lower[joint]):.0f}° to {np.degrees(body.upper[joint]):.0f}°); "
+            "calibrate the arm"
+        )
+    return told
+
+
+def _motors(arm: KatanaArm) -> str:
+    began, calls = time.monotonic(), 5
+    for _ in range(calls):
+        statuses = arm.katana.statuses()
+    each = (time.monotonic() - began) / calls
+    told = f"status {' '.join(map(str, statuses))}, {1000 * each:.0f} ms a call"
+    if Status.CRASHED in statuses:
+        raise Suspicious(f"{told}: one has collided; free it, robot.arm.driving.unblock=true")
+    if Status.OFF in statuses:
+        raise Suspicious(f"{told}: off; type robot.arm.driving.calibrate=true or .unblock=true")
+    return told
+
+
+def _gripper(arm: KatanaArm) -> str:
+    return f"sensors {' '.join(map(str, arm.katana.sensors()))}"
+
+
+def _camera(camera: Camera, bench: Bench) -> str:
+    if not camera.live:
+        seen = bench.perception(bench.field).perceive(bench.robot.reset()).hand
+        return "simulated" + ("" if seen is None else f", hand at {_place(seen)}")
+    camera.reset(0)
+    began, frames = time.monotonic(), 0
+    while (passed := time.monotonic() - began) < WATCH:
+        shot = camera.look(round(passed * SECOND), None)
+        frames += 1 + len(shot.skipped)
+        time.sleep(0.1)
+    rate, bright = frames / WATCH, float(shot.frame.mean())
+    pixels = bench.perception(bench.field).detector.hand_in(_seen(shot))
+    told = f"{rate:.0f} frames/s, brightness {bright:.0f} of 255"
+    if not DARK <= bright <= BRIGHT:
+        raise Suspicious(f"{told}: set its exposure, or the light")
+    if not len(pixels):
+        raise Suspicious(f"{told}, no hand in view: look at vision.hue, vision.saturation")
+    return f"{told}, {len(pixels)} px of the hand's colour at {_place(pixels.mean(axis=0))}"
+
+
+def _seen(shot: Shot) -> Observation:
+    """A frame as a detector wants it; of the arm it asks nothing."""
+    return Observation(
+        time_ns=shot.time_ns,
+        posture=np.zeros(0),
+        velocity=np.zeros(0),
+        gaze=shot.gaze,
+        frame=shot.frame,
+        frame_time_ns=shot.time_ns,
+        frame_gaze=shot.gaze,
+        place_noise=shot.place_noise,
+        opening=1.0,
+        proximity=float("inf"),
+        touching=False,
+    )
+
+
+def _place(place: object) -> str:
+    x, y = np.asarray(place)
+    return f"[{x:.0f}, {y:.0f}] px"
+
+
+def _neck(cfg: Config) -> str:
+    node = cfg.get("neck")
+    if not node:
+        return "none asked for (neck=ssc32)"
+    line = SerialLine(node["port"], node["baud"], node["timeout"])
+    with closing(line):
+        return board_version(line, node["timeout"])

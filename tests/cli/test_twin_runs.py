@@ -1,0 +1,96 @@
+"""Commands on the twin: robot=katana runs here exactly what it runs in the lab."""
+
+import json
+import subprocess
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import pytest
+
+from imitation.recording.mcap_recording import Recording
+
+PROGRAM = [sys.executable, "-c", "from cli.main import main; main()"]
+SWIFT = ("robot.approach.share=1", "robot.arm.speed=[1.5,1.0,1.0,1.5,1.5]", "--yes")
+
+
+@contextmanager
+def twin(folder: Path, *words: str) -> Iterator[list[str]]:
+    """The words that lead a command to a twin while it runs."""
+    pty = folder / "neck"
+    call = [*PROGRAM, "twin", "--port", "0", "--stream", "0", "--pty", str(pty), *words]
+    with subprocess.Popen(call, stdout=subprocess.PIPE, text=True, cwd=folder) as process:
+        try:
+            process.stdout.readline()
+            yield process.stdout.readline().split()[2:]
+        finally:
+            process.terminate()
+            process.wait(timeout=20)
+
+
+def imitate(folder: Path, *words: str) -> subprocess.CompletedProcess:
+    call = [*PROGRAM, *words]
+    return subprocess.run(
+        call, cwd=folder, capture_output=True, text=True, timeout=300, stdin=subprocess.DEVNULL
+    )
+
+
+def events(folder: Path) -> dict[str, str]:
+    """What happened, by its kind, in a recording that is whole."""
+    recording = Recording.open(folder / "run.mcap")
+    assert recording.digest() == recording.recomputed_digest()
+    return {message.name: message.msg for _, message in recording.messages("/events")}
+
+
+def test_a_real_arm_moves_only_when_somebody_says_so(tmp_path):
+    with twin(tmp_path) as there:
+        asked = imitate(tmp_path, "learn-map", *there, "out=asked")
+        dry = imitate(tmp_path, "learn-map", *there, "out=dry", "learning.limit=1", "--dry-run")
+    assert asked.returncode == 2
+    assert "--yes" in asked.stderr
+    assert "is about to move" in asked.stderr
+    assert not (tmp_path / "asked").exists()
+    assert dry.returncode == 1, dry.stderr  # nothing is learned of a hand that does not move
+    assert json.loads((tmp_path / "dry" / "metrics.json").read_text())["steps"] > 3
+
+
+@pytest.mark.slow
+@pytest.mark.timeout(600)
+def test_a_map_learned_through_the_wire_reaches(tmp_path):
+    with twin(tmp_path) as there:
+        learned = imitate(tmp_path, "learn-map", *there, *SWIFT, "out=map")
+        assert learned.returncode == 0, learned.stderr
+        reached = imitate(tmp_path, "reach", "map=map", "trials=6", *there, *SWIFT, "out=reach")
+    assert reached.returncode == 0, reached.stderr
+    metrics = json.loads((tmp_path / "reach" / "metrics.json").read_text())
+    assert all(trial["final_distance_px"] < 3 for trial in metrics["trials"])
+    assert metrics["late_ticks"] < 0.05 * metrics["steps"]
+
+
+@pytest.mark.slow
+@pytest.mark.timeout(600)
+@pytest.mark.parametrize(
+    ("fault", "told"),
+    [
+        ("crashed_motor=2@14", "motor 2 has collided|collision"),
+        ("stuck_motor=1@14", "motor 1 .* does not move"),
+        ("silence@14", "in vain|no reply"),
+        ("wrong_crc@14", "wrong CRC"),
+        ("cut@14", "is cut"),
+        ("error_flag@14", "refuses"),
+        ("neck_silence@12", "neck .* is silent"),
+        ("neck_reset@12", "started anew"),
+        ("camera_gone@16", "delivered no frame"),
+    ],
+)
+def test_a_device_that_fails_ends_the_run_with_a_readable_recording(fault, told, tmp_path):
+    import re
+
+    with twin(tmp_path, "--fault", fault) as there:
+        run = imitate(tmp_path, "learn-map", *there, *SWIFT, "learning.limit=25", "out=run")
+    assert run.returncode == 3, run.stderr
+    last = run.stderr.strip().splitlines()[-1]
+    assert re.search(told, last)
+    assert re.search(told, events(tmp_path / "run")["device"])
+    assert json.loads((tmp_path / "run" / "metrics.json").read_text())["status"] == "failed"
