@@ -1,7 +1,7 @@
 """Makes robots, perception and maps out of a composed configuration."""
 
 import zlib
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from inspect import signature
@@ -17,7 +17,7 @@ from imitation.dynamics import Dynamics
 from imitation.gaze import VisualSpace
 from imitation.guard import Guard
 from imitation.perception import Perception
-from imitation.robot import SECOND, Body, Robot
+from imitation.robot import SECOND, Arm, Body, Camera, Robot
 from imitation.robots.bodies import guard_of
 from imitation.robots.bullet.world_can import Can
 from imitation.robots.demonstrators import HandOverTable
@@ -55,8 +55,13 @@ def make(node: Config, **more: Any) -> Any:
 
 def make_offered(node: Config, offered: Config) -> Any:
     """What `make` builds, given those of the `offered` values that it asks for."""
-    asked = signature(get_method(node["_target_"])).parameters
+    asked = asked_by(node)
     return make(node, **{name: value for name, value in offered.items() if name in asked})
+
+
+def asked_by(node: Config) -> Collection[str]:
+    """The parameters of what a node's `_target_` names."""
+    return signature(get_method(node["_target_"])).parameters
 
 
 def made(node: Any) -> Any:
@@ -97,31 +102,47 @@ class Bench:
     @cached_property
     def robot(self) -> Robot:
         """The arm, its camera and the guard."""
-        node = self.cfg["robot"]
+        arm, camera = self.arm, self.camera
+        approach = Approach(**self.cfg["robot"]["approach"]) if arm.live else None
+        home, guard = self.guided.mean(axis=0), self.guard(arm.body)
+        return Robot(arm, camera, guard, home, self.period_ns, approach)
+
+    @cached_property
+    def arm(self) -> Arm:
+        """The arm; a real one is asked who it is, nothing moves."""
         beside = {"period": self.period_ns / SECOND, "thing": self.thing}
-        arm = make_offered(node["arm"], beside)
-        if self.cfg["dry_run"]:
-            arm = DryRun(arm)
-        offered = {
-            "arm": arm,
+        arm: Arm = make_offered(self.cfg["robot"]["arm"], beside)
+        return DryRun(arm) if self.cfg["dry_run"] else arm
+
+    @cached_property
+    def camera(self) -> Camera:
+        """The camera, on its neck."""
+        offered: dict[str, Any] = {
             "space": self.learning_space,
             "reference": self.space.reference,
             "gaze": self.cfg["camera"]["gaze"],
             "rng": generator(self.cfg["seed"], "camera"),
             "demonstrator": self.demonstrator,
         }
-        camera = make_offered(_plain(self.cfg["camera"], "size", "focal_px", "gaze"), offered)
+        node = _plain(self.cfg["camera"], "size", "focal_px", "gaze")
+        if "arm" in asked_by(node):  # a real camera stands for itself
+            offered["arm"] = self.arm
+        camera: Camera = make_offered(node, offered)
         if (neck := self.cfg.get("neck")) and not self.cfg["dry_run"]:
             camera = make(neck, camera=camera, gaze=self.cfg["camera"]["gaze"])
-        guard = self.guard(arm.body)
-        approach = Approach(**node["approach"]) if arm.live else None
-        return Robot(arm, camera, guard, self.guided.mean(axis=0), self.period_ns, approach)
+        return camera
+
+    def close(self) -> None:
+        """Stop the arm and release the devices that were made; harmless when repeated."""
+        for made in ("robot", "arm", "camera"):
+            if made in self.__dict__:
+                self.__dict__[made].close()
 
     @cached_property
     def demonstrator(self) -> HandOverTable | None:
         """Who moves another hand before the simulated camera; None: nobody."""
         node, camera = self.cfg.get("demonstrator"), self.cfg["camera"]
-        simulated = "demonstrator" in signature(get_method(camera["_target_"])).parameters
+        simulated = "demonstrator" in asked_by(camera)
         if node is None or not simulated:  # a real camera sees who is there
             return None
         gesture = make(_plain(node, *DEMONSTRATOR))

@@ -9,7 +9,7 @@ import numpy as np
 
 from cli.build import Bench, Config
 from cli.findings import FAIL, Finding, Suspicious, look
-from imitation.robot import SECOND, Arm, Camera, Observation, Shot
+from imitation.robot import SECOND, Arm, Observation, Shot
 from imitation.robots.katana.arm import KatanaArm
 from imitation.robots.katana.commands import Status
 from imitation.robots.serial_line import SerialLine
@@ -24,23 +24,26 @@ def device_findings(cfg: Config) -> Iterator[Finding]:
     """What is found of the arm, its camera and its neck."""
     yield look("ports", _ports)
     bench = Bench({**cfg, "neck": None})
+    try:
+        yield from _of_arm(bench)
+        yield look("camera", lambda: _camera(bench), device=True)
+        yield look("neck", lambda: _neck(cfg), device=True)
+    finally:
+        bench.close()
+
+
+def _of_arm(bench: Bench) -> Iterator[Finding]:
     made = look("arm", lambda: _arm(bench), device=True)
     yield made
     if made.verdict == FAIL:
-        yield look("neck", lambda: _neck(cfg), device=True)
         return
-    robot, real = bench.robot, bench.robot.arm
-    try:
-        if not real.live:
-            robot.reset()
-        yield look("joints", lambda: _joints(real), device=True)
-        if isinstance(real, KatanaArm):
-            yield look("motors", lambda: _motors(real), device=True)
-            yield look("gripper", lambda: _gripper(real), device=True)
-        yield look("camera", lambda: _camera(robot.camera, bench), device=True)
-        yield look("neck", lambda: _neck(cfg), device=True)
-    finally:
-        robot.close()
+    arm = bench.arm
+    if not arm.live:
+        arm.reset(bench.guided.mean(axis=0))
+    yield look("joints", lambda: _joints(arm), device=True)
+    if isinstance(arm, KatanaArm):
+        yield look("motors", lambda: _motors(arm), device=True)
+        yield look("gripper", lambda: _gripper(arm), device=True)
 
 
 def _ports() -> str:
@@ -53,7 +56,7 @@ def _ports() -> str:
 
 
 def _arm(bench: Bench) -> str:
-    arm = bench.robot.arm
+    arm = bench.arm
     if not isinstance(arm, KatanaArm):
         return f"{arm.body.name}, {'real' if arm.live else 'simulated'}"
     major, minor = arm.identity.firmware
@@ -91,7 +94,8 @@ def _gripper(arm: KatanaArm) -> str:
     return f"sensors {' '.join(map(str, arm.katana.sensors()))}"
 
 
-def _camera(camera: Camera, bench: Bench) -> str:
+def _camera(bench: Bench) -> str:
+    camera = bench.camera
     if not camera.live:
         seen = bench.perception(bench.field).perceive(bench.robot.reset()).hand
         return "simulated" + ("" if seen is None else f", hand at {_place(seen)}")

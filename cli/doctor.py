@@ -51,7 +51,6 @@ def doctor(words: Sequence[str], as_json: bool) -> int:
 def _installation() -> Iterator[Finding]:
     yield look("python", _python)
     yield look("packages", lambda: ", ".join(f"{name} {version(name)}" for name in PACKAGES))
-    yield look("physics", _physics)
     yield look("renderer", _renderer)
     yield look("viewer", _viewer)
     yield look("disk", _disk)
@@ -64,14 +63,6 @@ def _python() -> str:
     if sys.version_info[:2] != (3, 11):
         raise OSError(f"this is Python {sys.version.split()[0]}, PyBullet's wheels need 3.11")
     return sys.version.split()[0]
-
-
-def _physics() -> str:
-    from imitation.robots.bullet import world
-
-    if not world.pybullet.isNumpyEnabled():
-        raise OSError("PyBullet was built without numpy; install its wheel for Python 3.11")
-    return "PyBullet with numpy"
 
 
 def _renderer() -> str:
@@ -89,7 +80,7 @@ def _renderer() -> str:
         raise OSError("the simulated camera shows one colour: the renderer does not work")
     if each > bench.cfg["period"] / 2:
         raise Suspicious(f"a picture takes {1000 * each:.1f} ms: simulated runs will be slow")
-    return f"{1000 * each:.1f} ms a picture of {_size(bench.space)}"
+    return f"PyBullet with numpy, {1000 * each:.1f} ms a picture of {_size(bench.space)}"
 
 
 def _size(space: VisualSpace) -> str:
@@ -98,11 +89,9 @@ def _size(space: VisualSpace) -> str:
 
 
 def _viewer() -> str:
-    import rerun
-
     if sys.platform == "linux" and not {"DISPLAY", "WAYLAND_DISPLAY"} & set(os.environ):
         raise Suspicious("no screen: type imitate view RUN --screenshot FILE")
-    return f"Rerun {rerun.__version__}"
+    return f"Rerun {version('rerun-sdk')}"
 
 
 def _disk() -> str:

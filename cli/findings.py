@@ -4,7 +4,6 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from cli.errors import UserError, is_refusal
-from imitation.device import DeviceError
 
 PASS, WARN, FAIL = "pass", "warn", "fail"
 
@@ -29,7 +28,7 @@ def look(subject: str, at: Callable[[], str], device: bool = False) -> Finding:
         return Finding(subject, PASS, at(), device)
     except Suspicious as odd:
         return Finding(subject, WARN, str(odd), device)
-    except (DeviceError, UserError, ImportError, OSError) as error:
+    except (RuntimeError, UserError, ImportError, OSError) as error:
         return Finding(subject, FAIL, str(error), device)
     except ValueError as error:
         if not is_refusal(error):

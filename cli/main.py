@@ -211,7 +211,7 @@ def doctor(
     ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="For programs.")] = False,
 ) -> None:
-    """Look whether everything works here, and the devices of robot=...; nothing moves."""
+    """Look whether all works here, and the devices of robot=..."""
     from cli.doctor import doctor
     from cli.job import attempt
 

@@ -164,8 +164,7 @@ class Run:
 
     def close(self) -> None:
         """Stop the arm, release the devices, end the log."""
-        if "robot" in self.bench.__dict__:
-            self.bench.robot.close()
+        self.bench.close()
         for handler in list(self.log.handlers):
             self.log.removeHandler(handler)
             handler.close()

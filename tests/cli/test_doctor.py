@@ -1,0 +1,47 @@
+"""imitate doctor: what works here, and what of a robot's devices."""
+
+import json
+
+import pytest
+
+
+def found(result) -> dict[str, dict]:
+    return {one["subject"]: one for one in json.loads(result.stdout)}
+
+
+def test_a_healthy_installation_passes(imitate):
+    result = imitate("doctor", "--json")
+    assert result.exit_code == 0
+    assert {"python", "packages", "renderer", "viewer", "disk"} <= set(found(result))
+    assert not list(imitate.folder.iterdir())
+
+
+def test_people_are_shown_a_table(imitate):
+    shown = imitate("doctor").stdout
+    assert "looked at" in shown
+    assert "pass" in shown
+
+
+@pytest.mark.parametrize("robot", ["ideal", "katana_sim"])
+def test_a_simulated_robot_passes(imitate, robot):
+    result = imitate("doctor", f"robot={robot}", "--json")
+    assert result.exit_code == 0
+    assert all(one["verdict"] != "fail" for one in found(result).values())
+    assert "hand at" in found(result)["camera"]["told"]
+
+
+def test_devices_that_do_not_answer_are_told_with_what_to_type(imitate):
+    words = ("robot=katana", "robot.arm.address=127.0.0.1:1", "neck=ssc32", "neck.port=nowhere")
+    result = imitate("doctor", *words, "camera.device=/dev/nothing", "--json")
+    assert result.exit_code == 3
+    told = found(result)
+    for subject, word in (("arm", "address"), ("camera", "camera.device"), ("neck", "nowhere")):
+        assert told[subject]["verdict"] == "fail"
+        assert word in told[subject]["told"]
+    assert "robot.arm.address=" in told["ports"]["told"]
+
+
+def test_an_unknown_robot_is_bad_input(imitate):
+    result = imitate("doctor", "robot=katanna")
+    assert result.exit_code == 2
+    assert "katana" in result.stderr
