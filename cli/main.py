@@ -218,6 +218,18 @@ def doctor(
     raise typer.Exit(attempt(lambda: doctor(words or [], as_json)))
 
 
+@app.command()
+def export(
+    paths: Annotated[list[Path], typer.Argument(metavar="RUN... OUT", help="Runs, then where to.")],
+    to: Annotated[str, typer.Option(help="csv | parquet | video | lerobot")],
+) -> None:
+    """Write recordings as a table, a film or a LeRobot dataset."""
+    from cli.export import export
+    from cli.job import attempt
+
+    raise typer.Exit(attempt(lambda: export(paths, to)))
+
+
 def main() -> Any:
     """Run the program."""
     return app()
