@@ -23,7 +23,7 @@ from imitation.robots.bullet.world_can import Can
 from imitation.robots.demonstrators import HandOverTable
 from imitation.robots.dry_run import DryRun
 from imitation.robots.recorded import RecordedRobot
-from imitation.robots.scenery import can_on_table, hand_over_table
+from imitation.robots.scenery import can_on_table, hand_over_table, held_at
 from imitation.sample import RecordedStep
 from imitation.selection import Selection
 from imitation.sequence import TimeCells, TimedSequence
@@ -234,6 +234,15 @@ class Bench:
         learning = Learning(**_plain(node, "neurons"))
         body = self.robot.body
         return VisuoMotorMap(self.field, body.lower, body.upper, node["neurons"], learning)
+
+    def object_goal(self, seen: Array) -> Array | None:
+        """Where the demonstrator put the object: the mark was last `seen` (2,) [px]; (3,) [m]."""
+        if self.thing is None:
+            return None
+        robot, hand = self.cfg["robot"], self.cfg["demonstrator"]
+        eye, height = self.cfg["camera"]["eye"], hand["height"] + hand["raise"]
+        place = held_at(seen, robot, self.learning_space, eye, height)
+        return np.append(place, self.thing.centre[2])
 
     def empty_sequence(self) -> TimedSequence:
         """A timed sequence that has learned nothing yet."""

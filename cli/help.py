@@ -56,6 +56,12 @@ EXAMPLES = {
         ("imitate mimic map=RUN experiment=mimicry_controls", "what makes the imitation"),
         ("imitate mimic map=RUN experiment=mirror", "Nielsen's mirror"),
     ],
+    "replay": [
+        ("imitate replay map=RUN action=RUN", "a hand at the action's first state triggers it"),
+        ("imitate replay map=RUN action=RUN replay.precision=area", "as in the paper: eyes closed"),
+        ("imitate replay map=RUN action=RUN 'demonstrator.place=[85,75]'", "it begins later on"),
+        ("imitate replay map=RUN action=RUN object=null", "without the can"),
+    ],
     "figure": [
         ("imitate figure fig3a", "all seeds; exit code 1 when a claim fails"),
         ("imitate figure fig3a demo=true", "a few seeds, at a glance"),

@@ -86,6 +86,12 @@ def mimic(words: Words = None) -> None:
 
 
 @app.command(**STAGE)
+def replay(words: Words = None) -> None:
+    """Reproduce an action seen once, when a hand at one of its states triggers it."""
+    raise typer.Exit(launch("replay", words or []))
+
+
+@app.command(**STAGE)
 def figure(
     name: Annotated[str, typer.Argument(help=" | ".join(FIGURES), autocompletion=figure_names)],
     words: Words = None,

@@ -182,3 +182,4 @@ RANGES: dict[str, dict[str, Any]] = {
         "distance_cap": Positive,
     },
 }
+RANGES["aim"] = RANGES["controller"]

@@ -7,8 +7,8 @@ import os
 import platform
 import shlex
 import time
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from contextlib import ExitStack, closing
+from collections.abc import Callable, Generator, Iterable, Iterator, Sequence
+from contextlib import ExitStack, closing, suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -120,14 +120,12 @@ class Run:
             confirm_motion(self.bench)
             sample: Sample | None = None
             try:
-                for sample in samples:
+                for sample in until_interrupted(samples, interruption):
                     truths = robot.truth()
                     for one in (recorder.write, *watchers):
                         one(sample, truths)
                     report.step(sample)
                     self._note(sample)
-                    if interruption.wanted:
-                        break
             except DeviceError as error:
                 robot.close()  # at once: the arm freezes
                 if sample:
@@ -203,6 +201,18 @@ class Run:
             yield path.name, path.read_bytes()
         if urdf := self.cfg["robot"]["arm"].get("urdf"):
             yield Path(urdf).name, find_urdf(urdf).read_bytes()
+
+
+def until_interrupted(samples: Iterator[Sample], interruption: Interruption) -> Iterator[Sample]:
+    """The steps until a signal asks for the end: a stage that catches it has the last word."""
+    for sample in samples:
+        yield sample
+        if interruption.wanted:
+            break
+    if interruption.wanted and isinstance(samples, Generator):
+        with suppress(KeyboardInterrupt):
+            yield samples.throw(KeyboardInterrupt())
+            yield from samples
 
 
 def plain(value: Any) -> Any:

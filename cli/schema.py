@@ -357,6 +357,48 @@ class Mimic(Common):
     controls: Controls | None
 
 
+class Replaying(Section):
+    """`replay`."""
+
+    precision: Literal["area", "seen"]
+    patience: Positive
+    after: NotNegative
+    limit: Positive
+
+
+class Arrivals(Section):
+    """`arrivals`."""
+
+    appearing: Annotated[float, Within(gt=0, le=1)]
+    leaving: Annotated[float, Within(gt=0, le=1)]
+    dwell: NotNegative
+    absence: NotNegative
+
+
+class Arriving(Section):
+    """`arriving`."""
+
+    passing: Positive
+    looking: Positive
+    near: Positive
+    settled: NotNegative
+    still: Positive
+    pairing: Positive
+
+
+class Replay(Common):
+    """`imitate replay`."""
+
+    field: Field | None = None  # the map's, so that none is given
+    map: Place
+    action: Place
+    aim: Named
+    sequence: Sequence
+    replay: Replaying
+    arrivals: Arrivals
+    arriving: Arriving
+
+
 class Figure(Section):
     """`imitate figure`."""
 
@@ -374,5 +416,6 @@ COMMANDS: dict[str, type[Section]] = {
     "reach": Reach,
     "mimic": Mimic,
     "demo-record": DemoRecord,
+    "replay": Replay,
     "figure": Figure,
 }

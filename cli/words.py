@@ -4,9 +4,10 @@ import re
 from dataclasses import dataclass, field
 
 from cli.errors import UserError, nearest
+from cli.keys import groups
 
 OVERRIDE = re.compile(r"^[+~]*[\w/@.]+=|^~[\w/@.]+$")
-PATHS = ("out", "map")  # keys whose values are paths
+PATHS = ("out", "map", "action")  # keys whose values are paths
 SPECIAL = re.compile(r"[()\[\]{}=,'\"\\]")
 OURS = {"--yes": "confirmed=true", "--dry-run": "dry_run=true"}
 SWITCHES = {"-m": "--multirun", "--multirun": "--multirun", "--resolve": "--resolve"}
@@ -46,7 +47,7 @@ def understand(typed: list[str]) -> Words:
         word = rest.pop(0)
         name, equals, value = word.partition("=")
         if OVERRIDE.match(word):
-            words.overrides.append(word)
+            words.overrides.append(_absent(name) if value == "null" else word)
         elif word in OURS:
             words.overrides.append(OURS[word])
         elif name in SWITCHES and not equals:
@@ -77,6 +78,11 @@ def _path_quoted(word: str) -> str:
     key, _, value = word.partition("=")
     plain = key not in PATHS or not SPECIAL.search(value) or value[:1] in ("'", '"')
     return word if plain else f"{key}={quoted(value)}"
+
+
+def _absent(key: str) -> str:
+    """That nothing of a group takes part; Hydra has another word for it."""
+    return f"~{key}" if key in groups() else f"{key}=null"
 
 
 def _next(name: str, rest: list[str]) -> str:

@@ -40,7 +40,7 @@ FOLLOWING = {
 class Detours:
     """Joint offsets from a state's posture, each (n_joints,) [rad]."""
 
-    drawn_back: Array  # while an open hand approaches: else it topples what it is to take
+    drawn_back: Array  # while an open hand makes ready: else it topples what it is to take
     lifted: Array  # while something is carried there
     lowered: Array  # when that is there: held just over the table
     leaving: Array  # after it was let go
@@ -58,9 +58,11 @@ class Detours:
 class Arriving:
     """When the arm is where it was going."""
 
-    passing: float  # near enough to go on from the drawn-back posture, and to look [rad]
-    near: float  # near enough to a posture to act there [rad]
-    blocked: float  # so it is too when the arm gets no farther for this long [s]
+    passing: float  # near enough to go on from a detour [rad]
+    looking: float  # near enough to correct the aim by what is seen [rad]
+    near: float  # near enough to a state's posture to act there [rad]
+    settled: float  # when it was so near for this long [s]
+    still: float  # so it is too when the arm gets no farther for this long [s]
     pairing: float  # frames older than this are not paired with a posture [s]
 
 
@@ -89,12 +91,12 @@ class Enactor:
     period: float
 
     def __post_init__(self) -> None:
-        self.phase, self.last = Phase.RESTING, False
-        self.arrived = self.blocked = False
+        self.phase, self.due, self.last = Phase.RESTING, False, False
+        self.arrived = False
         self._target = np.full(2, np.nan)
         self._about: tuple[object, ...] = ()
         self._history = PostureHistory(self.arriving.pairing)
-        self._began_ns = self._frame_ns = self._moved_ns = 0
+        self._began_ns = self._frame_ns = self._moved_ns = self._away_ns = 0
         self._there = self.rest
 
     @property
@@ -105,9 +107,15 @@ class Enactor:
     def _holding(self) -> bool:
         return self.reflex.hand in (Hand.HOLDING, Hand.OPENING)
 
+    def make_ready(self, target: Array) -> None:
+        """A state is coming whose place is `target` (2,) [px]: be near until it is due."""
+        self._target, self.due, self.phase = target, False, Phase.APPROACHING
+
     def go_to(self, target: Array, last: bool) -> None:
-        """A state is predicted whose place is `target` (2,) [px]; nothing follows the last one."""
-        self._target, self.last, self.phase = target, last, Phase.APPROACHING
+        """A state is due whose place is `target` (2,) [px]; nothing follows the last one."""
+        self._target, self.due, self.last = target, True, last
+        if self.phase is Phase.REACHING and self.reflex.hand is not Hand.EMPTY:
+            self.phase = Phase.APPROACHING  # lifted; an empty hand goes straight on
 
     @property
     def attended(self) -> Mask:
@@ -115,6 +123,11 @@ class Enactor:
         field = self.learned.field
         area = field.area_of(self._target) if self.phase is Phase.REACHING else None
         return np.zeros(field.shape, dtype=bool) if area is None else field.around(area)
+
+    def rests(self, percept: Percept) -> bool:
+        """Whether the arm is back at rest, and is seen to be."""
+        still = (percept.time_ns - self._moved_ns) / SECOND > self.arriving.still
+        return self.phase is Phase.RESTING and still
 
     def decide(self, seen: Observation, percept: Percept, dynamics: Dynamics) -> Decision:
         """Where the arm is drawn now; held still while the hand opens or closes."""
@@ -142,9 +155,10 @@ class Enactor:
 
     def go_on(self) -> None:
         """Begin what comes next, once the arm has arrived and the hand is done."""
+        waiting = self.phase is Phase.APPROACHING and not self.due
         done = self.last and self.reflex.hand is Hand.EMPTY
         staying = self.phase is Phase.REACHING and not done
-        if self.arrived and not self.reflex.moving and not staying:
+        if self.arrived and not (self.reflex.moving or waiting or staying):
             self.phase = FOLLOWING[self.phase]
 
     def _turn(self, time_ns: int) -> None:
@@ -153,7 +167,7 @@ class Enactor:
         if about == self._about:
             return
         self._about, self.arrived = about, False
-        self._began_ns = self._moved_ns = time_ns
+        self._began_ns = self._moved_ns = self._away_ns = time_ns
         if self.phase in (Phase.APPROACHING, Phase.REACHING):
             self.precision.begin(self.learned, self._target)
 
@@ -164,7 +178,7 @@ class Enactor:
         if percept.hand is None or not news or self.phase is not Phase.REACHING:
             return
         posture = self._history.at(percept.time_ns)
-        if _apart(self.precision.attractors(posture).postures, posture) < self.arriving.passing:
+        if _apart(self.precision.attractors(posture).postures, posture) < self.arriving.looking:
             self.precision.correct(posture, percept.hand)
             self._frame_ns = percept.time_ns
 
@@ -180,11 +194,15 @@ class Enactor:
         return one_attractor(np.clip(shifted, dynamics.lower, dynamics.upper))
 
     def _arrive(self, seen: Observation, goals: Array) -> None:
-        enough = self.arriving.near if self.phase is Phase.REACHING else self.arriving.passing
-        if np.any(np.abs(seen.posture - self._there) > self.arriving.near):
-            self._there, self._moved_ns = seen.posture, seen.time_ns
-        self.blocked = (seen.time_ns - self._moved_ns) / SECOND > self.arriving.blocked
-        self.arrived = _apart(goals, seen.posture) < enough or self.blocked
+        limits, now_ns = self.arriving, seen.time_ns
+        if np.any(np.abs(seen.posture - self._there) > limits.near):
+            self._there, self._moved_ns = seen.posture, now_ns
+        reaching = self.phase is Phase.REACHING
+        if _apart(goals, seen.posture) >= (limits.near if reaching else limits.passing):
+            self._away_ns = now_ns
+        near_for = (now_ns - self._away_ns) / SECOND
+        still = (now_ns - self._moved_ns) / SECOND > limits.still
+        self.arrived = still or near_for >= (limits.settled if reaching else self.period)
 
 
 def _apart(goals: Array, posture: Array) -> float:

@@ -44,6 +44,16 @@ class Recall:
         return self.places[self.state]
 
     @property
+    def coming(self) -> Array | None:
+        """Where the state was seen that follows the present one, (2,) [px]; None: none does."""
+        return None if self.state is None or self.loop.over else self.places[self.state + 1]
+
+    @property
+    def over(self) -> bool:
+        """Whether the last state is present."""
+        return self.state is not None and self.loop.over
+
+    @property
     def where(self) -> str:
         """Where in the action it is, in words."""
         return "before any state was seen" if self.state is None else f"in {self.called}"

@@ -42,17 +42,24 @@ def can_on_table(
         eye: Optical centre of the camera, (3,) [m].
         rng: Scatters the can.
     """
-    holding, table = robot["holding"], robot["arm"]["table"]
-    mark = space.unproject(np.asarray(node["seen_px"]), np.asarray(eye), holding["height"])[:2]
-    away = mark - robot["arm"]["base"][:2]
-    place = mark - holding["outwards"] * away / np.linalg.norm(away) + node["off_m"]
-    x, y = place + within_disc(node["scatter"], rng)
+    table = robot["arm"]["table"]
+    place = held_at(np.asarray(node["seen_px"]), robot, space, eye, robot["holding"]["height"])
+    x, y = place + node["off_m"] + within_disc(node["scatter"], rng)
     top = table["centre"][2] + table["size"][2] / 2
     red, green, blue, opacity = node["colour"]
     shape = {key: node[key] for key in ("radius", "height", "mass")}
     grip = {key: node[key] for key in ("friction", "spinning", "rolling")}
     centre = (float(x), float(y), top + node["height"] / 2)
     return Can(**shape, **grip, colour=(red, green, blue, opacity), centre=centre)
+
+
+def held_at(
+    seen: Array, robot: Mapping[str, Any], space: VisualSpace, eye: Numbers, height: float
+) -> Array:
+    """Where a hand holds something whose mark is `seen` (2,) [px] at `height` [m], (2,) [m]."""
+    mark = space.unproject(seen, np.asarray(eye), height)[:2]
+    away = mark - robot["arm"]["base"][:2]
+    return np.asarray(mark - robot["holding"]["outwards"] * away / np.linalg.norm(away))
 
 
 def within_disc(radius: float, rng: np.random.Generator) -> Array:

@@ -41,6 +41,8 @@ def replay(
     while seen.time <= (until if recall.state is None else latest):
         percept = perception.perceive(seen, enactor.attended & ~recall.staying)
         events = recall.notice(percept.time_ns / SECOND, percept.visual_input)
+        if enactor.phase is Phase.RESTING and recall.coming is not None:
+            enactor.make_ready(recall.coming)
         if predicted := recall.predict(seen.time):
             enactor.go_to(recall.place, recall.loop.over)
             events.append(predicted)
@@ -49,7 +51,7 @@ def replay(
         command = Command(decision.velocity, enactor.act(seen))
         enactor.go_on()
         events += _told(before, enactor, recall)
-        if enactor.phase is Phase.RESTING and before[0] is Phase.RETURNING:
+        if recall.over and enactor.rests(percept):
             recall.end()
             until = seen.time + ending.after
         sensed, applied = robot.step(command)

@@ -107,7 +107,15 @@ class Gripper:
             (0, 0, 0),
             physicsClientId=self._client,
         )
-        pybullet.changeConstraint(gear, gearRatio=-1, maxForce=1000, physicsClientId=self._client)
+        # Without erp the gear keeps speeds alone, and the can drifts sideways with both fingers.
+        pybullet.changeConstraint(
+            gear,
+            gearRatio=-1,
+            maxForce=1000,
+            erp=0.2,
+            relativePositionTarget=0.0,
+            physicsClientId=self._client,
+        )
         for joint in self._joints:
             pybullet.changeDynamics(
                 self._arm,
