@@ -41,9 +41,10 @@ def lead(arm: "Arm", guard: Guard, target: Array, period_ns: int, how: Approach)
     # Planned ahead of what is sensed: a real arm senses itself late.
     planned, before = arm.read().posture, np.zeros(len(target))
     best, waited = np.inf, 0.0
-    while (away := float(np.abs(target - arm.read().posture).max())) > how.tolerance or (
-        before.any()
-    ):
+    while True:
+        away = float(np.abs(target - arm.read().posture).max())
+        if max(away, float(np.abs(before).max()) * period) <= how.tolerance:
+            break
         best, waited = (away, 0.0) if away < best - how.tolerance / 10 else (best, waited + period)
         if waited > how.patience:
             raise DeviceError(
@@ -54,6 +55,7 @@ def lead(arm: "Arm", guard: Guard, target: Array, period_ns: int, how: Approach)
         wanted = able_to_stop(to_go / period, to_go, guard.acceleration, period)
         excess = float(np.max(np.abs(wanted) / (guard.speed * how.share)))
         limited, _ = guard.limit(wanted / max(excess, 1.0), before, planned, period)
-        arm.move(limited, None, period)
-        planned, before = planned + limited * period, limited
+        sent = arm.move(limited, None, period)
+        planned, before = planned + sent * period, limited
         clock.tick()
+    arm.move(np.zeros(len(target)), None, period)
