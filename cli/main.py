@@ -196,6 +196,9 @@ def twin(
     port: Annotated[int, typer.Option(help="TCP port of the arm; 0: a free one.")] = 5566,
     pty: Annotated[Path, typer.Option(help="Serial port of the neck, to make.")] = Path("neck"),
     stream: Annotated[int, typer.Option(help="TCP port of the camera; 0: a free one.")] = 8090,
+    watching: Annotated[
+        str, typer.Option(help="Who watches a demonstrator: demo-record or mimic.")
+    ] = "demo-record",
     fault: Annotated[
         list[str] | None,
         typer.Option(help="NAME[=WHICH][@START[-END]][xTIMES], in seconds; may be repeated."),
@@ -205,7 +208,7 @@ def twin(
     from cli.job import attempt
     from cli.twin import Asked, twin
 
-    asked = Asked(words or [], model, port, pty, stream, fault or [])
+    asked = Asked(words or [], watching, model, port, pty, stream, fault or [])
     raise typer.Exit(attempt(lambda: twin(asked)))
 
 

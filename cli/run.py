@@ -82,7 +82,9 @@ class Run:
     @property
     def body_words(self) -> list[str]:
         """Which of the typed words chose the body: a command that follows needs them too."""
-        return [shlex.quote(word) for word in self.typed if word.startswith(("robot", "camera"))]
+        return [
+            shlex.quote(word) for word in self.typed if word.startswith(("robot", "camera", "neck"))
+        ]
 
     @property
     def cadence(self) -> list[tuple[str, str]]:

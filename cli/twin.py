@@ -24,6 +24,8 @@ from imitation.robots.ssc32 import Servo
 from imitation.robots.twin import CAMERA_FAULTS, Twin
 
 RATE, QUALITY = 25.0, 100  # of the camera: pictures per second [Hz], quality of its JPEGs
+# Commands that watch a demonstrator, each from its own gaze, and what they must be told.
+WATCHING = {"demo-record": (), "mimic": ("map=given",)}
 NECK = "neck_"  # before the name of a fault of the neck
 NECK_FAULTS = {NECK + name: told for name, told in ssc32_emulator.FAULTS.items()}
 
@@ -33,6 +35,7 @@ class Asked:
     """What was typed."""
 
     words: Sequence[str]
+    watching: str  # the command that watches a demonstrator
     model: str
     port: int
     pty: Path
@@ -45,11 +48,12 @@ def twin(asked: Asked) -> int:
     if asked.model not in MODELS or MODELS[asked.model].serial:
         raise UserError(no_such("model with TCP", asked.model, ["400", "450"]))
     planned = [read_fault(one, FAULTS | CAMERA_FAULTS | NECK_FAULTS) for one in asked.faults]
-    cfg = _config(asked.words)
+    cfg = _config(asked.watching, asked.words)
     bench = Bench({**cfg, "neck": None})  # the simulated camera needs none
     servos = [Servo(**cfg["neck"][axis]) for axis in ("pan", "tilt")]
-    arm, board = EmulatedArm(MODELS[asked.model]), ssc32_emulator.Ssc32Emulator(_of_neck(planned))
-    servers = [Server(KatanaEmulator(arm, Faults(planned))), Server(board)]
+    board = ssc32_emulator.Ssc32Emulator(_of_neck(planned))
+    emulator = KatanaEmulator(EmulatedArm(MODELS[asked.model]), Faults(planned))
+    servers = [Server(emulator), Server(board)]
     servers[0].listen(asked.port)
     servers[1].open_pty(asked.pty)
     stream = MjpegServer(asked.stream_port)
@@ -58,7 +62,7 @@ def twin(asked: Asked) -> int:
     for thread in threads:
         thread.start()
     try:
-        _twin(bench, arm, board, servos, stream, Faults(planned)).run(over=lambda: False)
+        _twin(bench, emulator, board, servos, stream, Faults(planned)).run(over=lambda: False)
     finally:
         for server, thread in zip(servers, threads, strict=True):
             server.stopped = True
@@ -68,18 +72,20 @@ def twin(asked: Asked) -> int:
     return DONE
 
 
-def _config(words: Sequence[str]) -> Config:
+def _config(command: str, words: Sequence[str]) -> Config:
     """Of the simulated robot; a demonstrator's hand is in view when the words name one."""
-    typed = ["demonstrator=none", "neck=ssc32", *understand(list(words)).overrides]
+    if command not in WATCHING:
+        raise UserError(no_such("command that watches", command, list(WATCHING)))
+    typed = [*WATCHING[command], "demonstrator=none", "neck=ssc32"]
     try:
-        return composed("demo-record", *typed)
+        return composed(command, *typed, *understand(list(words)).overrides)
     except Exception as error:
-        raise trouble.as_user_error("demo-record", error) from error
+        raise trouble.as_user_error(command, error) from error
 
 
 def _twin(
     bench: Bench,
-    arm: EmulatedArm,
+    emulator: KatanaEmulator,
     board: ssc32_emulator.Ssc32Emulator,
     servos: Sequence[Servo],
     stream: MjpegServer,
@@ -90,7 +96,7 @@ def _twin(
         raise UserError("the twin is made of PyBullet: leave robot= out, or type robot=katana_sim")
     return Twin(
         arm=body,
-        katana=arm,
+        emulator=emulator,
         board=board,
         servos=servos,
         space=bench.learning_space,

@@ -10,9 +10,10 @@ import numpy as np
 from imitation.arrays import Array, Image
 from imitation.gaze import VisualSpace
 from imitation.robots.bullet.arm import BulletArm
-from imitation.robots.demonstrators import Demonstrator
+from imitation.robots.demonstrators import Demonstrator, Shown
 from imitation.robots.faults import Faults
 from imitation.robots.katana.emulated_arm import EmulatedArm
+from imitation.robots.katana.emulator import KatanaEmulator
 from imitation.robots.mjpeg import MjpegServer
 from imitation.robots.ssc32 import Servo
 from imitation.robots.ssc32_emulator import Ssc32Emulator
@@ -24,6 +25,7 @@ CAMERA_FAULTS = {
     "tag_lost": "there is no tag on the hand",
     "two_tags": "a second thing looks like the tag",
 }
+ATTENTION = 3.0  # how long the robot has rested when a demonstrator takes it to watch [s]
 TAG, COVER = (219, 10, 10), (158, 132, 102)  # colours of the tag and of what hides it, RGB
 
 
@@ -33,7 +35,7 @@ class Twin:
 
     Args:
         arm: The simulated arm, which follows the emulated one.
-        katana: The emulated arm.
+        emulator: The emulated arm.
         board: The emulated board of the neck.
         servos: Pan and tilt, as the neck is built.
         space: Visual space of the camera.
@@ -47,7 +49,7 @@ class Twin:
     """
 
     arm: BulletArm
-    katana: EmulatedArm
+    emulator: KatanaEmulator
     board: Ssc32Emulator
     servos: Sequence[Servo]
     space: VisualSpace
@@ -59,6 +61,9 @@ class Twin:
     quality: int
     faults: Faults = field(default_factory=Faults)
     _shown: bytes = b""
+    _session: int = -1
+    _quiet_since: float = 0.0  # the arm rests [s]
+    _begun: float | None = None  # when the demonstrator began [s]; None: it waits
     _followed: Array = field(default_factory=lambda: np.zeros(0))  # where the arm was led [rad]
 
     def run(self, over: Callable[[], bool]) -> None:
@@ -82,15 +87,32 @@ class Twin:
             self._posture(),
             self.katana.model.opening(self.katana.motors[-1].counter),
         )
+        self._have_demonstrated(now, resting=bool((posture == self._followed).all()))
         self.arm.move((posture - self._followed) * self.rate, opening, 1 / self.rate)
         self._followed = posture
-        if self.demonstrator:
-            self.arm.scene.show(self.demonstrator.at(now), self.demonstrator.hand)
         if self.faults.at(now, "camera_gone"):
             return
         if not (self._shown and self.faults.at(now, "camera_frozen")):
             self._shown = self._jpeg(self._picture(now))
         self.stream.publish(self._shown)
+
+    def _have_demonstrated(self, now: float, resting: bool) -> None:
+        """A demonstrator begins when the robot of a new run has come to rest and watches."""
+        if self.demonstrator is None:
+            return
+        if self.emulator.sessions != self._session:
+            self._session, self._begun, self._quiet_since = self.emulator.sessions, None, now
+        if not resting:
+            self._quiet_since = now
+        if self._begun is None and now - self._quiet_since >= ATTENTION:
+            self._begun = now
+        shown = Shown(None) if self._begun is None else self.demonstrator.at(now - self._begun)
+        self.arm.scene.show(shown, self.demonstrator.hand)
+
+    @property
+    def katana(self) -> EmulatedArm:
+        """The arm behind the wire."""
+        return self.emulator.arm
 
     def gaze(self) -> Array:
         """Where the neck's servos turn the camera, (2,) [rad]."""

@@ -10,6 +10,7 @@ from on_bench import bench
 
 from imitation.robots.faults import Faults, read_fault
 from imitation.robots.katana.emulated_arm import EmulatedArm
+from imitation.robots.katana.emulator import KatanaEmulator
 from imitation.robots.katana.models import MODELS
 from imitation.robots.mjpeg import MjpegServer
 from imitation.robots.ssc32 import Servo
@@ -34,13 +35,14 @@ class Shown:
 @contextmanager
 def twin(*faults: str):
     parts = bench("learn-map", "robot=katana_sim")
-    katana, board = EmulatedArm(MODELS["400"]), Ssc32Emulator(clock=lambda: 0.0)
-    for motor, encoder in zip(katana.motors, katana.model.encoders(HOME), strict=False):
+    emulator, board = KatanaEmulator(EmulatedArm(MODELS["400"])), Ssc32Emulator(clock=lambda: 0.0)
+    model = emulator.arm.model
+    for motor, encoder in zip(emulator.arm.motors, model.encoders(HOME), strict=False):
         motor.position = encoder
     shown = Shown()
     one = Twin(
         arm=parts.robot.arm,
-        katana=katana,
+        emulator=emulator,
         board=board,
         servos=SERVOS,
         space=parts.space,

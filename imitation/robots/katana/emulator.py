@@ -7,6 +7,7 @@ from threading import Lock
 
 from imitation.robots.faults import Fault, Faults
 from imitation.robots.katana.answers import Answers
+from imitation.robots.katana.commands import motor_version
 from imitation.robots.katana.emulated_arm import EmulatedArm, RefusalError
 from imitation.robots.katana.frames import (
     ADDRESS,
@@ -25,6 +26,7 @@ FAULTS = LINE_FAULTS | {
     "stuck_sensor": "the sensors say the same for ever",
     "uncalibrated": "the arm was just switched on",
 }
+FIRST = motor_version(1)  # what every driver asks first
 STALE = 0.5  # a frame that is not complete by then never will be [s]
 HEADER = 3
 
@@ -44,6 +46,7 @@ class KatanaEmulator:
     faults: Faults = field(default_factory=Faults)
     speed: float = 1.0
     clock: Callable[[], float] = time.monotonic
+    sessions: int = 0  # how often somebody began to talk to it
     _buffer: bytes = b""
     _heard_at: float = 0.0
     _began: float | None = None
@@ -109,6 +112,7 @@ class KatanaEmulator:
             if sealed(payload) != request or not payload:
                 raise RefusalError(-12, 0, "wrong CRC")
             self._asked = payload[0]
+            self.sessions += payload == FIRST
             if self.arm.model.tells_errors and self.faults.at(now, "error_flag"):
                 raise RefusalError(-1, 0, "injected")
             return sealed(Answers(self.arm).answer(payload))
