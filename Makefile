@@ -25,7 +25,7 @@ $(READY): uv.lock pyproject.toml .python-version
 	@$(UV) sync --frozen --quiet || { echo "the environment could not be made: it needs Python 3.11 (PyBullet has no wheels for later ones); 'uv python install 3.11' fetches it"; exit 2; }
 	@touch $@
 
-demo: $(READY) ## learn, reach, draw figures 1 to 5 with few seeds; about 3 minutes
+demo: $(READY) ## learn, reach, mimic, replay, draw all figures with few seeds; under 5 minutes
 	$(RUN)/python -m cli.demo
 
 test: $(READY) ## the tests, under 5 minutes

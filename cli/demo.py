@@ -25,6 +25,14 @@ REACHES = {
     "noise": ["trials=3", "reach.limit=20"],
     "nearest": ["trials=6", "reach.limit=5"],
 }
+MIMICRIES = {  # selection of mimic: what is asked of its RMSE after the lag
+    "winner": "2 px over the best that the areas allow",
+    "soft": "half of the winner's, 6 px",
+}
+REPLAYS = {  # replay.precision: what is asked
+    "seen": "in order, grasped, within 4 cm",
+    "area": "the paper's open loop: nothing asked",
+}
 ASKED = {  # of each controller, in this bench; the paper stops under 3 px and gives no rate
     "corrected_aim": "held for 10 frames in 98 %, 2.0 s at most in the median",
     "yuragi": "95 %; the paper: the arm is led under 3 px",
@@ -49,6 +57,14 @@ def commands(name: str) -> Iterator[list[str]]:
     for controller, words in REACHES.items():
         words = [f"map={learned}", f"controller={controller}", *words]
         yield ["reach", *words, f"out={reached_in(name, controller)}"]
+    for selection in MIMICRIES:
+        words = [f"map={learned}", "demonstrator=circle", f"selection={selection}"]
+        yield ["mimic", *words, f"out={mimicked_in(name, selection)}"]
+    action = RUNS / "demo-record" / name
+    yield ["demo-record", f"out={action}"]
+    for precision in REPLAYS:
+        words = [f"map={learned}", f"action={action}", f"replay.precision={precision}"]
+        yield ["replay", *words, f"out={replayed_in(name, precision)}"]
     for figure in FIGURES:
         yield ["figure", figure, "demo=true", f"out={FIGURES_FOLDER}"]
 
@@ -56,6 +72,16 @@ def commands(name: str) -> Iterator[list[str]]:
 def reached_in(name: str, controller: str) -> Path:
     """The run folder of a controller's reaches."""
     return RUNS / "reach" / f"{name}-{controller}"
+
+
+def mimicked_in(name: str, selection: str) -> Path:
+    """The run folder of a selection's mimicry."""
+    return RUNS / "mimic" / f"{name}-{selection}"
+
+
+def replayed_in(name: str, precision: str) -> Path:
+    """The run folder of a replay."""
+    return RUNS / "replay" / f"{name}-{precision}"
 
 
 def imitate(words: Sequence[str]) -> int:
@@ -91,12 +117,35 @@ def rows(name: str) -> Iterator[tuple[str, str, str]]:
             time_s = told["median_time_s"]
             time_told = "" if time_s is None else f", {time_s:.1f} s in the median"
             yield f"targets, {controller}", f"{told['success_rate']:.0%}{time_told}", asked
+    yield from imitated(name)
     for figure in FIGURES:
         told = read(FIGURES_FOLDER / f"{figure}.claims.json")
         for claim in told.get("claims", []):
             asked = f"{claim['comparison']} {claim['asked']:g} {claim['unit']}"
             measured = "none" if claim["measured"] is None else f"{claim['measured']:.3g}"
             yield f"{figure}: {claim['sentence']}", measured, asked
+
+
+def imitated(name: str) -> Iterator[tuple[str, str, str]]:
+    """The same of mimicking and of what was done after one demonstration."""
+    for selection, asked in MIMICRIES.items():
+        told = read(mimicked_in(name, selection) / "metrics.json")
+        if told:
+            measured = f"{told['path_rmse_px']:.1f} px, {told['lag_s']:.2f} s late"
+            wanted = f"{asked} ({told['floor_rmse_px']:.1f} px); 0.3 s"
+            yield f"circle mimicked, {selection}", measured, wanted
+    for precision, asked in REPLAYS.items():
+        told = read(replayed_in(name, precision) / "metrics.json")
+        if told:
+            yield f"action seen once, {precision}", reproduced(told), asked
+
+
+def reproduced(told: dict[str, Any]) -> str:
+    """What became of an action, in words."""
+    order = "in order" if told["order_correct"] else "not in order"
+    grasped = "grasped" if told["grasped"] else "not grasped"
+    error = told["object_error_m"]
+    return f"{order}, {grasped}" + ("" if error is None else f", {100 * error:.1f} cm off")
 
 
 def read(path: Path) -> dict[str, Any]:
