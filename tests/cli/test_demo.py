@@ -6,6 +6,7 @@ from hydra import compose, initialize_config_module
 from cli.check import checked
 from cli.demo import commands, main
 from cli.figures import FIGURES
+from cli.verify import verify
 from cli.words import understand
 
 
@@ -24,3 +25,6 @@ def test_a_command_of_the_demo_composes(typed):
 def test_the_demo_runs(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     assert main() == 0
+    runs = list(tmp_path.rglob("run.mcap"))
+    assert runs
+    assert all(verify(run) == 0 for run in runs)

@@ -1,0 +1,48 @@
+"""What the documents say is so."""
+
+import re
+import sys
+from pathlib import Path
+
+import pytest
+
+from imitation.recording.mcap_recording import Recording
+
+DOCS = Path(__file__).parents[1] / "docs"
+sys.path.insert(0, str(Path(__file__).parent / "recording"))
+
+
+@pytest.fixture(scope="module")
+def run(tmp_path_factory):
+    """A made-up run and its table."""
+    import made_up
+
+    from cli.export import export
+
+    folder = tmp_path_factory.mktemp("read") / "run"
+    folder.mkdir()
+    with made_up.recorder(folder / "run.mcap") as recorder:
+        for sample, truths in made_up.run(30):
+            recorder.write(sample, truths)
+    assert export([folder, folder / "steps.parquet"], "parquet") == 0
+    return folder
+
+
+def blocks(name):
+    return re.findall(r"```python\n(.*?)```", (DOCS / name).read_text(), re.DOTALL)
+
+
+@pytest.mark.parametrize("code", blocks("reading.md"), ids=["rosbags", "ours", "table"])
+def test_a_run_is_read_as_the_page_says(run, code):
+    assert len([line for line in code.splitlines() if line.strip()]) <= 11
+    names = {"run": run, "steps": run / "steps.parquet"}
+    exec(code, names)
+    read = names.get("times") or names.get("told") or names.get("seen")
+    assert len(read) in (3, 30)
+
+
+def test_every_topic_is_on_the_page(run):
+    page = (DOCS / "recording.md").read_text()
+    for topic, kind in Recording.open(run).topics.items():
+        assert f"`{topic}`" in page
+        assert kind.type.rpartition("/")[2] in page
