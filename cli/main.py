@@ -145,18 +145,18 @@ def inspect(
 ) -> None:
     """Tell on one screen what a recording holds, and what to type next."""
     from cli.inspect import inspect
-    from cli.job import attempt
+    from cli.reading import reading
 
-    raise typer.Exit(attempt(lambda: inspect(run, as_json)))
+    raise typer.Exit(reading(run, lambda: inspect(run, as_json)))
 
 
 @app.command()
 def recover(run: Recorded) -> None:
     """Make the recording of a killed run whole again; the cut one is kept beside it."""
-    from cli.job import attempt
+    from cli.reading import reading
     from cli.recover import recover_run
 
-    raise typer.Exit(attempt(lambda: recover_run(run)))
+    raise typer.Exit(reading(run, lambda: recover_run(run)))
 
 
 @app.command()
@@ -168,10 +168,10 @@ def verify(
     ] = None,
 ) -> None:
     """Make every decision of a recording anew, from what was sensed, and compare."""
-    from cli.job import attempt
+    from cli.reading import reading
     from cli.verify import verify, what_if
 
-    raise typer.Exit(attempt(lambda: what_if(run, with_) if with_ else verify(run)))
+    raise typer.Exit(reading(run, lambda: what_if(run, with_) if with_ else verify(run)))
 
 
 @app.command()
@@ -181,9 +181,9 @@ def explain(
 ) -> None:
     """Say in words and numbers why the arm moved as it did at one time of a run."""
     from cli.explain import explain
-    from cli.job import attempt
+    from cli.reading import reading
 
-    raise typer.Exit(attempt(lambda: explain(run, at)))
+    raise typer.Exit(reading(run, lambda: explain(run, at)))
 
 
 @app.command()
@@ -234,9 +234,9 @@ def export(
 ) -> None:
     """Write recordings as a table, a film or a LeRobot dataset."""
     from cli.export import export
-    from cli.job import attempt
+    from cli.reading import reading
 
-    raise typer.Exit(attempt(lambda: export(paths, to)))
+    raise typer.Exit(reading(paths[0], lambda: export(paths, to)))
 
 
 def main() -> Any:

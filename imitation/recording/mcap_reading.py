@@ -1,6 +1,7 @@
 """What an MCAP file holds, whole or cut: records and messages in the order written."""
 
 import struct
+import zlib
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from io import BytesIO
@@ -20,6 +21,8 @@ from imitation.robot import SECOND
 
 LARGEST_CHUNK = 2**28  # no chunk of ours comes near [bytes]
 MESSAGE_FIELDS = struct.Struct("<HIQQ")  # channel, sequence, two times; the data follows
+END = struct.Struct("<BQQQI8s")  # the footer: opcode, length, two offsets, checksum; then the magic
+CHECKSUM = struct.Struct("<I")  # at the end of an attachment; 0: none
 RECORD_HEAD = struct.Struct("<BQ")  # opcode, length
 BESIDE_MESSAGES: dict[int, Any] = {
     Opcode.HEADER: Header,
@@ -65,7 +68,9 @@ def contents(path: Path) -> Contents:
     for record in records(path, BESIDE_MESSAGES):
         found.take(record)
     found.whole = is_whole(path)
-    if not found.whole:  # without the summary at its end, the channels stand in the chunks alone
+    if found.whole:
+        _check_summary(path)
+    else:  # without the summary at its end, the channels stand in the chunks alone
         for _ in chunks(path, found):
             pass
     return found
@@ -74,8 +79,20 @@ def contents(path: Path) -> Contents:
 def is_whole(path: Path) -> bool:
     """Whether an MCAP file was closed as it should be, not cut."""
     with path.open("rb") as stream:
-        stream.seek(max(path.stat().st_size - len(MCAP0_MAGIC), 0))
+        stream.seek(max(path.stat().st_size - len(MCAP0_MAGIC), len(MCAP0_MAGIC)))
         return stream.read() == MCAP0_MAGIC
+
+
+def _check_summary(path: Path) -> None:
+    """Raise an error when the summary at a file's end is not what its checksum says."""
+    size = path.stat().st_size
+    with path.open("rb") as stream:
+        stream.seek(max(size - END.size, 0))
+        opcode, length, start, _, told, _ = END.unpack(stream.read(END.size).rjust(END.size))
+        stream.seek(min(start, size))
+        summary = stream.read(size)[: -CHECKSUM.size - len(MCAP0_MAGIC)]
+    if (opcode, length) != (Opcode.FOOTER, 20) or (told and told != zlib.crc32(summary)):
+        raise ValueError(f"{path} is damaged: its summary is not what was written")
 
 
 def chunks(path: Path, found: Contents) -> Iterator[list[Message]]:
@@ -168,7 +185,12 @@ def records(path: Path, kinds: Mapping[int, Any]) -> Iterator[Any]:
 
 def _record(path: Path, kind: Any, data: bytes) -> Any:
     try:
-        return kind.read(ReadDataStream(BytesIO(data)))
+        record = kind.read(ReadDataStream(BytesIO(data)))
+        if kind is Attachment:
+            (told,) = CHECKSUM.unpack(data[-CHECKSUM.size :])
+            if told and told != zlib.crc32(data[: -CHECKSUM.size]):
+                raise ValueError("its checksum is wrong")
+        return record
     except (McapError, ValueError, struct.error) as error:
         name = kind.__name__.lower()
         raise ValueError(f"{path} is damaged: a record {name} cannot be read") from error

@@ -54,7 +54,11 @@ def _numbers(text: str | None, default: str) -> Array:
 def read_joints(urdf: Path) -> dict[str, Joint]:
     """Joints of a URDF file by the name of their child link."""
     joints = {}
-    for node in ElementTree.parse(urdf).getroot().iterfind("joint"):
+    try:
+        model = ElementTree.parse(urdf).getroot()
+    except ElementTree.ParseError as error:
+        raise ValueError(f"{urdf.name} is no URDF: {error}") from error
+    for node in model.iterfind("joint"):
         origin, axis, limit = node.find("origin"), node.find("axis"), node.find("limit")
         at = {} if origin is None else origin.attrib
         bounds = {} if limit is None else limit.attrib
