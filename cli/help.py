@@ -56,6 +56,10 @@ EXAMPLES = {
         ("imitate mimic map=RUN experiment=mimicry_controls", "what makes the imitation"),
         ("imitate mimic map=RUN experiment=mirror", "Nielsen's mirror"),
     ],
+    "check-map": [
+        ("imitate check-map map=RUN", "visit five learned postures"),
+        ("imitate check-map map=RUN check.postures=16", "all of them"),
+    ],
     "replay": [
         ("imitate replay map=RUN action=RUN", "a hand at the action's first state triggers it"),
         ("imitate replay map=RUN action=RUN replay.precision=area", "as in the paper: eyes closed"),

@@ -80,6 +80,12 @@ def demo_record(words: Words = None) -> None:
 
 
 @app.command(**STAGE)
+def check_map(words: Words = None) -> None:
+    """Tell whether camera or arm has moved since a map was learned."""
+    raise typer.Exit(launch("check-map", words or []))
+
+
+@app.command(**STAGE)
 def mimic(words: Words = None) -> None:
     """Follow a hand that is taken for the own one."""
     raise typer.Exit(launch("mimic", words or []))

@@ -411,11 +411,31 @@ class Figure(Section):
     demo_seeds: Count
 
 
+class Checking(Section):
+    """`check`."""
+
+    postures: Count
+    slowness: Annotated[float, Within(ge=1)]
+    arrival: Positive
+    frames: Count
+    blocked: Positive
+    tolerance: Positive
+
+
+class CheckMap(Common):
+    """`imitate check-map`."""
+
+    field: Field | None = None  # the map's, so that none is given
+    map: Place
+    check: Checking
+
+
 COMMANDS: dict[str, type[Section]] = {
     "learn-map": LearnMap,
     "reach": Reach,
     "mimic": Mimic,
     "demo-record": DemoRecord,
     "replay": Replay,
+    "check-map": CheckMap,
     "figure": Figure,
 }

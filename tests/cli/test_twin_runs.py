@@ -1,6 +1,7 @@
 """Commands on the twin: robot=katana runs here exactly what it runs in the lab."""
 
 import json
+import re
 import subprocess
 import sys
 from collections.abc import Iterator
@@ -59,13 +60,32 @@ def test_a_real_arm_moves_only_when_somebody_says_so(tmp_path):
 @pytest.mark.timeout(600)
 def test_a_map_learned_through_the_wire_reaches(tmp_path):
     with twin(tmp_path) as there:
-        learned = imitate(tmp_path, "learn-map", *there, *SWIFT, "out=map")
-        assert learned.returncode == 0, learned.stderr
+        imitate(tmp_path, "learn-map", *there, *SWIFT, "out=map")
+        learned = json.loads((tmp_path / "map" / "metrics.json").read_text())
+        assert learned["areas_learned"] >= 14
         reached = imitate(tmp_path, "reach", "map=map", "trials=6", *there, *SWIFT, "out=reach")
     assert reached.returncode == 0, reached.stderr
     metrics = json.loads((tmp_path / "reach" / "metrics.json").read_text())
     assert all(trial["final_distance_px"] < 3 for trial in metrics["trials"])
     assert metrics["late_ticks"] < 0.05 * metrics["steps"]
+
+
+@pytest.mark.slow
+@pytest.mark.timeout(600)
+def test_a_hand_before_the_twin_is_mimicked_and_its_action_learned(tmp_path):
+    with twin(tmp_path) as there:
+        imitate(tmp_path, "learn-map", *there, *SWIFT, "out=map")
+    with twin(tmp_path, "--watching", "mimic", "demonstrator=circle") as there:
+        words = ("map=map", "duration=30", "out=mimic")
+        run = imitate(tmp_path, "mimic", *words, *there, *SWIFT)
+        assert run.returncode == 0, run.stderr
+    metrics = json.loads((tmp_path / "mimic" / "metrics.json").read_text())
+    assert metrics["follow_rate"] > 0.6
+    with twin(tmp_path, "demonstrator=pick_and_place") as there:
+        run = imitate(tmp_path, "demo-record", *there, *SWIFT, "out=action")
+        assert run.returncode == 0, run.stderr
+    metrics = json.loads((tmp_path / "action" / "metrics.json").read_text())
+    assert metrics["states"] >= 3
 
 
 @pytest.mark.slow
@@ -85,8 +105,6 @@ def test_a_map_learned_through_the_wire_reaches(tmp_path):
     ],
 )
 def test_a_device_that_fails_ends_the_run_with_a_readable_recording(fault, told, tmp_path):
-    import re
-
     with twin(tmp_path, "--fault", fault) as there:
         run = imitate(tmp_path, "learn-map", *there, *SWIFT, "learning.limit=25", "out=run")
     assert run.returncode == 3, run.stderr

@@ -18,7 +18,8 @@ ROUNDING = 1e-9
 EARLIER, AT_ONCE = 1.001, 4.0
 # Steps in the normal suite and in the slow one: more than a million in all.
 STEPS = {"ideal": (2000, 1_000_000), "katana_sim": (500, 100_000), "kuka_sim": (300, 50_000)}
-IN_AN_ENGINE = 1.1  # the arm is a little elsewhere than its commands should have led it
+# In an engine the arm is a little elsewhere than its commands should have led it [rad].
+IN_AN_ENGINE, ELSEWHERE = 1.1, 0.005
 
 
 class Witness:
@@ -99,8 +100,8 @@ def ride(robot: Robot, witness: Witness, steps: int, seed: int, earlier: float =
         brakes = np.abs(velocity) < np.abs(before)
         change = np.abs(velocity - before) / np.where(brakes, earlier, EARLIER)
         assert (change <= largest + ROUNDING).all(), step
-        assert (seen.posture >= body.lower).all(), step
-        assert (seen.posture <= body.upper).all(), step
+        assert (seen.posture >= body.lower - ELSEWHERE).all(), step
+        assert (seen.posture <= body.upper + ELSEWHERE).all(), step
         if applied.reasons[:1] == ("stale vision",):
             assert (np.abs(velocity) <= np.abs(before) + ROUNDING).all(), step
         before = velocity

@@ -1,0 +1,79 @@
+"""imitate check-map: has the camera or the arm moved since a map was learned?"""
+
+from collections.abc import Sequence
+
+import hydra
+import numpy as np
+from omegaconf import DictConfig
+
+from cli.build import Config, generator
+from cli.job import job
+from cli.jobs.reach import the_map
+from cli.run import Outcome, Run
+from imitation.arrays import Array
+from imitation.stages.check_map import Visit, Visiting, check_map
+
+
+@hydra.main(version_base="1.3", config_path="pkg://conf", config_name="check_map")
+def main(cfg: DictConfig) -> int:
+    """One job."""
+    return job("check-map", cfg, check)
+
+
+def check(run: Run) -> Outcome:
+    """Visit learned postures and judge what is seen there."""
+    learned, bench, cfg = the_map(run).map, run.bench, run.cfg["check"]
+    postures, places = learned.memories()
+    drawn = generator(run.cfg["seed"], "check").permutation(len(postures))[: cfg["postures"]]
+    visits = [Visit(postures[one], places[one]) for one in sorted(drawn)]
+    visiting = Visiting(**{key: cfg[key] for key in ("slowness", "arrival", "frames", "blocked")})
+    perception = bench.perception(learned.field)
+    samples = check_map(bench.robot, perception, bench.dynamics, visits, visiting)
+    run.record(samples, learned.field)
+    return outcome(visits, cfg)
+
+
+def outcome(visits: Sequence[Visit], cfg: Config) -> Outcome:
+    """What is told of the visits: how far all are off together, and how far each from that."""
+    offs = np.array([visit.off for visit in visits if visit.off is not None]).reshape(-1, 2)
+    common = np.median(offs, axis=0) if len(offs) else np.full(2, np.nan)
+    rest = float(np.median(np.linalg.norm(offs - common, axis=1))) if len(offs) else np.nan
+    verdict, complaint = judged(common, rest, len(visits) - len(offs), cfg["tolerance"])
+    return Outcome(
+        metrics={
+            "visited": len(visits),
+            "seen": len(offs),
+            "off_px": offs.tolist(),
+            "moved_px": common,
+            "scatter_px": rest,
+            "verdict": verdict,
+        },
+        rows=[
+            ("postures seen", f"{len(offs)} of {len(visits)}"),
+            ("all are off by", f"[{common[0]:.1f}, {common[1]:.1f}] px"),
+            ("each from that", f"{rest:.1f} px in the median"),
+            ("verdict", verdict),
+        ],
+        next="imitate view {run}",
+        complaint=complaint,
+    )
+
+
+def judged(moved: Array, scatter: float, unseen: int, tolerance: float) -> tuple[str, str | None]:
+    """In words what has moved, and what to do about it; None: nothing."""
+    far = float(np.hypot(*moved))
+    if unseen or not np.isfinite(far):
+        return "hand unseen", (
+            "the hand is not seen in every learned posture: look at camera and vision=, or relearn"
+        )
+    if scatter > tolerance:
+        return "the arm has moved", (
+            f"learned postures show the hand {scatter:.1f} px apart from each other's error: the "
+            "arm, or its calibration, is not what it was; relearn"
+        )
+    if far > tolerance:
+        return "the camera has moved", (
+            f"everything is seen {far:.1f} px away, [{moved[0]:.1f}, {moved[1]:.1f}]: the camera "
+            "has moved, or the arm's base; put it back, or relearn"
+        )
+    return "nothing has moved", None
