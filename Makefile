@@ -7,7 +7,7 @@ PYTHON ?= python3
 UV := $(shell command -v uv 2>/dev/null || echo .uv/bin/uv)
 RUN := .venv/bin
 READY := .venv/.ready
-FIGURES := fig1 fig2 fig3 fig4 fig5
+FIGURES := fig1 fig2 fig3 fig4 fig5 fig6
 
 .PHONY: help setup demo test test-full check bench results figures $(FIGURES) view clean
 
@@ -46,7 +46,7 @@ bench: $(READY) ## ratios of speed and memory against their bounds, into data/be
 results: $(READY) ## the numbers of docs/results.md over 20 untuned seeds; about an hour
 	$(RUN)/python -m cli.results
 
-fig1 fig2 fig4 fig5: $(READY) ## a figure of the paper with its claims, all seeds
+fig1 fig2 fig4 fig5 fig6: $(READY) ## a figure of the paper with its claims, all seeds
 	$(RUN)/imitate figure $@
 
 fig3: $(READY) ## both panels of Fig. 3
@@ -54,7 +54,7 @@ fig3: $(READY) ## both panels of Fig. 3
 	$(RUN)/imitate figure fig3b
 
 figures: $(READY) ## all figures; exit code 1 when a claim fails
-	@failed=0; for name in fig1 fig2 fig3a fig3b fig4 fig5; do \
+	@failed=0; for name in fig1 fig2 fig3a fig3b fig4 fig5 fig6; do \
 	  $(RUN)/imitate figure $$name || failed=1; done; exit $$failed
 
 view: $(READY) ## open the newest run in Rerun

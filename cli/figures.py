@@ -8,4 +8,5 @@ FIGURES = {
     "fig3b": ("fig3", "imitation.analysis.fig3.fig3b"),
     "fig4": ("fig4", "cli.figure_runs.fig4"),
     "fig5": ("fig5", "cli.figure_runs.fig5"),
+    "fig6": ("fig6", "cli.fig6_runs.fig6"),
 }

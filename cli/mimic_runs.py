@@ -1,6 +1,6 @@
 """Mimic runs that are only measured: with other hands, with shuffled maps, before a mirror."""
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import closing
 from copy import copy
 from dataclasses import dataclass, replace
@@ -32,14 +32,15 @@ def judged(bench: Bench, learned: VisuoMotorMap) -> MimicMetrics:
     return MimicMetrics(learned, place, soft, bench.robot.period, judging)
 
 
-def measured(cfg: Config, learned: VisuoMotorMap) -> MimicMetrics:
-    """A whole mimic run, measured."""
-    bench = Bench(cfg)
-    with closing(bench.robot):
+def measured(cfg: Config, learned: VisuoMotorMap) -> tuple[MimicMetrics, list[Percept]]:
+    """A whole mimic run, measured, and what was seen in it."""
+    bench, percepts = Bench(cfg), list[Percept]()
+    with closing(bench.robot) as robot:
         metrics = judged(bench, learned)
         for sample in mimicking(bench, learned):
-            metrics.add(sample, bench.robot.truth())
-    return metrics
+            percepts.append(sample.percept)
+            metrics.add(sample, robot.truth())
+    return metrics, percepts
 
 
 @dataclass(frozen=True)
@@ -53,13 +54,40 @@ class Remembered(Perception):
         return replace(next(self.percepts), time_ns=observation.time_ns)
 
 
+def seeing_the_same(
+    cfg: Config,
+    learned: VisuoMotorMap,
+    percepts: Sequence[Percept],
+    acting: Iterable[VisuoMotorMap],
+) -> Iterator[MimicMetrics]:
+    """Runs that see what was seen in another run, each acting by its own map.
+
+    The arm, its engine and its guard are those of any run; so is what is seen, because with the
+    own hand out of view it does not depend on what the arm does. Only pictures are not taken.
+
+    Args:
+        cfg: Of the runs.
+        learned: The map by which they are measured.
+        percepts: What was seen in the other run.
+        acting: The map of each run.
+    """
+    bench = Bench(cfg)
+    with closing(bench.robot) as robot:
+        robot.camera = BlindCamera(robot.camera)
+        duration = (len(percepts) - 0.5) * robot.period
+        for one in acting:
+            metrics, known = judged(bench, learned), bench.perception(learned.field)
+            seeing = Remembered(**known.__dict__, percepts=iter(percepts))
+            steps = mimic(robot, seeing, one, bench.dynamics, bench.selection, duration)
+            for sample in steps:
+                metrics.add(sample, robot.truth())
+            yield metrics
+
+
 def shuffled_correlations(
     numbers: Sequence[int], cfg: Config, learned: VisuoMotorMap, percepts: Sequence[Percept]
 ) -> list[float]:
     """Correlations of the robot's path with the demonstrated one when its map is shuffled.
-
-    The arm, its engine and its guard are those of the run; so is what is seen, because with the
-    own hand out of view it does not depend on what the arm does.
 
     Args:
         numbers: Of the shuffled maps.
@@ -67,18 +95,9 @@ def shuffled_correlations(
         learned: Its map.
         percepts: What was seen in it.
     """
-    bench, found = Bench(cfg), []
-    with closing(bench.robot) as robot:
-        robot.camera = BlindCamera(robot.camera)
-        duration = len(percepts) * robot.period - robot.period / 2
-        for number in numbers:
-            mixed = shuffled(learned, generator(cfg["seed"], f"shuffle {number}"))
-            metrics = judged(bench, learned)
-            seeing = Remembered(**bench.perception(learned.field).__dict__, percepts=iter(percepts))
-            for sample in mimic(robot, seeing, mixed, bench.dynamics, bench.selection, duration):
-                metrics.add(sample, robot.truth())
-            found.append(metrics.correlation())
-    return found
+    seed = cfg["seed"]
+    mixed = (shuffled(learned, generator(seed, f"shuffle {number}")) for number in numbers)
+    return [run.correlation() for run in seeing_the_same(cfg, learned, percepts, mixed)]
 
 
 def shuffled(learned: VisuoMotorMap, rng: np.random.Generator) -> VisuoMotorMap:

@@ -64,8 +64,13 @@ class Soft:
         read, _ = locally_linear(
             places, postures, hand, self.bandwidth * side, self.ridge * side**2
         )
-        near = learned.field.within(hand, self.bandwidth * side) * learned.learned
         return Selected(
-            np.maximum(selection, near),
+            self._weights(learned, hand),
             one_attractor(np.clip(read, learned.lower, learned.upper)),
         )
+
+    def _weights(self, learned: VisuoMotorMap, hand: Array) -> Array:
+        """How much each area weighs in the regression, (rows, columns); 1 in all."""
+        off = np.linalg.norm(learned.places - hand, axis=-1) / (self.bandwidth * learned.field.side)
+        weights = np.where(np.isnan(off), 0.0, np.exp(-(off**2) / 2)).sum(axis=-1)
+        return np.asarray(weights / weights.sum())

@@ -33,7 +33,9 @@ def controls(run: Run) -> Outcome:
     run.record(stages.mimicking(run.bench, learned), learned.field, watch)
     told = metrics.result(run.cfg["selection"]["name"])
     null = shuffled_maps(run.cfg, learned, percepts)
-    travelled = {name: measured(cfg, learned).travelled() for name, cfg in without(run.cfg).items()}
+    travelled = {
+        name: measured(cfg, learned)[0].travelled() for name, cfg in without(run.cfg).items()
+    }
     return outcome(told, null, travelled, metrics.travelled(), run.cfg["controls"])
 
 

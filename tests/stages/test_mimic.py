@@ -40,7 +40,7 @@ def test_soft_selection_brings_the_own_hand_to_where_the_other_one_is(ideal_less
     samples = mimicked(learned, *resting_at(place, "duration=5", "selection=soft"))
     shown = ideal_lesson.truly_shown(samples[-1].seen.posture)
     assert np.linalg.norm(shown - place) < 5
-    assert samples[-1].decision.selection.sum() > 1
+    assert np.sort(samples[-1].decision.selection, axis=None)[-4:].min() > 0.1
     assert samples[-1].decision.index.tolist() == [[-1, -1, -1]]
 
 
