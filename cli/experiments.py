@@ -11,6 +11,7 @@ from hydra.core.global_hydra import GlobalHydra
 
 from cli.build import Bench, Config, generator
 from cli.check import checked
+from cli.installed_bodies import search_path
 from cli.stages import learning, reaching, rules
 from imitation.analysis.reached import ReachedTrial, Reaches, Situation
 from imitation.arrays import Array
@@ -42,7 +43,7 @@ class Experiment:
 @cache
 def composed(command: str, *words: str) -> Config:
     """A command's configuration with `words` typed after it, checked; the same for all seeds."""
-    name = command.replace("-", "_")
+    name, words = command.replace("-", "_"), (*search_path(), *words)
     if GlobalHydra.instance().is_initialized():
         return checked(command, compose(name, list(words)))
     with initialize_config_module("conf", version_base="1.3"):

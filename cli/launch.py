@@ -6,6 +6,7 @@ from collections.abc import Callable
 from importlib import import_module
 
 from cli.errors import BAD_INPUT, DONE, INTERRUPTED, UserError, say
+from cli.installed_bodies import search_path
 from cli.interruption import sigterm_like_ctrl_c, waiting_for_the_jobs
 from cli.words import Words, quoted, understand
 
@@ -40,7 +41,7 @@ def _run(command: str, words: Words) -> int:
     try:
         if words.sweep:
             return _sweep(command, words, main)
-        _call(main, [*words.overrides, *QUIET, *words.flags])
+        _call(main, [*words.overrides, *QUIET, *search_path(), *words.flags])
     except Exception as error:
         raise trouble.as_user_error(command, error) from error
     return max(job.codes, default=DONE)
@@ -53,7 +54,7 @@ def _sweep(command: str, words: Words, main: Callable[[], None]) -> int:
     folder = make_run_folder(out_of(words.overrides), command)
     where = (f"hydra.sweep.dir={quoted(str(folder))}", "hydra.sweep.subdir=.")
     with waiting_for_the_jobs(folder):
-        _call(main, [*words.overrides, *QUIET, *where, *words.flags])
+        _call(main, [*words.overrides, *QUIET, *search_path(), *where, *words.flags])
     return summary(folder)
 
 

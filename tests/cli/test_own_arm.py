@@ -1,0 +1,55 @@
+"""The page that adds an arm, typed as it stands there."""
+
+import json
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+PAGE = Path(__file__).parents[2] / "docs" / "own_arm.md"
+BLOCK = re.compile(r"^`(?P<name>[\w./]+)`:.*?^```\w+\n(?P<text>.*?)^```", re.MULTILINE | re.DOTALL)
+
+
+@pytest.fixture
+def installed(tmp_path) -> Path:
+    """A folder of packages that holds the arm of the page as pip would leave it."""
+    files = {match["name"]: match["text"] for match in BLOCK.finditer(PAGE.read_text())}
+    assert sum(len(text.splitlines()) for text in files.values()) < 100
+    for name, text in files.items():
+        path = tmp_path / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+    for package in ("my_arm", "my_arm/conf"):
+        (tmp_path / package / "__init__.py").touch()
+    told = tmp_path / "my_arm-0.1.dist-info"
+    told.mkdir()
+    (told / "METADATA").write_text("Metadata-Version: 2.1\nName: my-arm\nVersion: 0.1\n")
+    entry = re.search(r'^my_arm = "(.*)"$', files["pyproject.toml"], re.MULTILINE)
+    (told / "entry_points.txt").write_text(f"[imitation.robots]\nmy_arm = {entry[1]}\n")
+    return tmp_path
+
+
+def imitate(folder: Path, *words: str) -> subprocess.CompletedProcess:
+    code = f"import sys; sys.path.insert(0, {str(folder)!r}); from cli.main import main; main()"
+    call = [sys.executable, "-c", code, *words]
+    return subprocess.run(call, cwd=folder, capture_output=True, text=True, timeout=100)
+
+
+def test_the_arm_of_the_page_learns_a_map(installed):
+    run = imitate(installed, "learn-map", "robot=my_arm", "out=run")
+    assert run.returncode == 0, run.stderr
+    assert json.loads((installed / "run" / "metrics.json").read_text())["areas_learned"] == 16
+
+
+def test_doctor_looks_at_it_too(installed):
+    run = imitate(installed, "doctor", "robot=my_arm", "--json")
+    assert run.returncode == 0, run.stdout
+    assert any("my_arm" in one["told"] for one in json.loads(run.stdout))
+
+
+def test_an_arm_that_is_not_installed_is_refused_with_those_that_are(installed):
+    run = imitate(installed, "learn-map", "robot=my_army")
+    assert run.returncode == 2
+    assert "robot" in run.stderr
