@@ -20,8 +20,10 @@ from cli.check import checked
 from cli.errors import UserError, no_such
 from cli.jobs.reach import trials_of
 from cli.keys import CONF
+from cli.replaying import replaying
 from cli.usual import filled
 from cli.what_if import replaced
+from imitation.recording.action_file import load_action
 from imitation.recording.map_file import load_map
 from imitation.recording.mcap_recording import Recording
 from imitation.recording.recorded_steps import StepTold, steps_told
@@ -109,11 +111,19 @@ def _watching(bench: Bench) -> Staged:
     return bench.field, samples
 
 
+def _replaying(bench: Bench) -> Staged:
+    learned, cells = load_map(Path(bench.cfg["map"])).map, bench.cfg["sequence"]["cells"]
+    action = load_action(Path(bench.cfg["action"]), cells["shortest"], cells["longest"])
+    _, samples = replaying(bench, learned, action)
+    return learned.field, samples
+
+
 STAGES: Mapping[str, Callable[[Bench], Staged]] = {
     "learn-map": _learning,
     "reach": _reaching,
     "mimic": _mimicking,
     "demo-record": _watching,
+    "replay": _replaying,
 }
 
 

@@ -153,9 +153,16 @@ def _pairs(
 def _by_topic(said: Sequence[Message]) -> dict[str, list[Message]]:
     found: dict[str, list[Message]] = {}
     for message in said:
-        if message.topic != "/camera/image" and not message.topic.startswith(TRUTH):
+        if not _is_given(message):
             found.setdefault(message.topic, []).append(message)
     return found
+
+
+def _is_given(message: Message) -> bool:
+    """Whether a message tells what nobody decided: frames, truth, the failure of a device."""
+    if message.topic == "/events":
+        return bool(messages.decoded(message.data, messages.LOG).name == "device")
+    return message.topic == "/camera/image" or message.topic.startswith(TRUTH)
 
 
 def _farthest(before: dict[str, Any], after: dict[str, Any]) -> tuple[str, float]:

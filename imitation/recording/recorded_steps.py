@@ -1,5 +1,6 @@
 """The steps of a recording: what was sensed at each, and all that was said of it."""
 
+import itertools
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -70,16 +71,15 @@ def _trouble(limited: Any) -> str | None:
 
 def grouped(chunks: Iterable[Sequence[Message]]) -> Iterator[list[Message]]:
     """The messages of each step: its frames come first, then the time of the frame it used."""
-    for chunk in chunks:  # holds whole steps
-        said: list[Message] = []
-        for message in chunk:
-            starts = message.topic in ("/camera/image", "/camera/used")
-            if starts and said and said[-1].topic != "/camera/image":
-                yield said
-                said = []
-            said.append(message)
-        if said:
+    said: list[Message] = []
+    for message in itertools.chain.from_iterable(chunks):
+        starts = message.topic in ("/camera/image", "/camera/used")
+        if starts and said and said[-1].topic != "/camera/image":
             yield said
+            said = []
+        said.append(message)
+    if said:
+        yield said
 
 
 class Frames:

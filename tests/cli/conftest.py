@@ -1,6 +1,8 @@
 """Calls `imitate` as a user would, on the ideal arm, in a folder of its own."""
 
+import json
 import sys
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -8,6 +10,7 @@ import pytest
 from typer.testing import CliRunner, Result
 
 from cli.main import app
+from cli.verify import verify
 
 for beside in ("recording", "robots"):  # where tampering.py and made_up_films.py are
     sys.path.insert(0, str(Path(__file__).parents[1] / beside))
@@ -24,9 +27,14 @@ class Imitate:
 
 
 @pytest.fixture
-def imitate(tmp_path, monkeypatch) -> Imitate:
+def imitate(tmp_path, monkeypatch) -> Iterator[Imitate]:
+    """The program; every run that a test makes with it is decided anew at the end."""
     monkeypatch.chdir(tmp_path)
-    return Imitate(tmp_path)
+    yield Imitate(tmp_path)
+    for told in tmp_path.rglob("metrics.json"):
+        metrics = json.loads(told.read_text() or "{}")
+        if metrics.get("status") == "done" and (told.parent / "run.mcap").is_file():
+            assert verify(told.parent) == 0
 
 
 @pytest.fixture(scope="session")

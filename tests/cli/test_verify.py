@@ -2,12 +2,14 @@
 
 import re
 import shutil
+from pathlib import Path
 
 import numpy as np
 import pytest
 from tampering import counts, rewrite
 
 from cli.verify import verify
+from imitation.analysis.comparison import Comparison
 from imitation.recording import messages
 from imitation.recording.mcap_recording import Recording
 
@@ -63,6 +65,25 @@ def test_watching_is_the_same_bit_for_bit(imitate):
     imitate("demo-record", "robot=ideal", "demo.duration=6", "out=run")
     told = imitate("verify", "run")
     assert told.exit_code == 0, told.output
+
+
+def test_replaying_is_the_same_bit_for_bit(imitate, learned):
+    imitate("demo-record", "robot=ideal", "out=action")
+    words = ("robot=ideal", f"map={learned}", "action=action", "replay.limit=8", "out=run")
+    imitate("replay", *words)
+    told = imitate("verify", "run")
+    assert told.exit_code == 0, told.output
+    assert Recording.open(Path("run")).attachments.keys() >= {"map.npz", "action.json"}
+
+
+def test_a_device_that_failed_is_no_decision(reached):
+    from imitation.recording.step_messages import event_message
+    from imitation.sample import Event
+
+    failed = event_message(0, Event("device", "the arm is silent"))
+    told = Comparison(Recording.open(reached).topics)
+    told.add([failed], [])
+    assert told.first is None
 
 
 def test_what_a_film_shows_is_the_same_bit_for_bit(imitate, tmp_path):
