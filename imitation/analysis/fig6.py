@@ -90,8 +90,8 @@ def _smoothness(axes: Any, runs: Sequence[Imitations], settings: Mimicking) -> N
         for tau, (lag, jitter) in zip(taus, points, strict=True):
             if tau in (taus[0], taus[-1]):
                 axes.annotate(
-                    f"{tau:g}", (lag, jitter), xytext=(-2, -2), textcoords="offset points",
-                    fontsize=6, color=colour, ha="right", va="top",
+                    f"{tau:g}", (lag, jitter), xytext=(2, 3), textcoords="offset points",
+                    fontsize=6, color=colour, ha="left", va="bottom",
                 )  # fmt: skip
     axes.set(xlabel="lag [s]", ylabel="2-3 Hz jitter [px]", xlim=(0, None), ylim=(0.01, 2))
     axes.set_yscale("log")

@@ -62,10 +62,10 @@ def mark_demo(figure: Figure, seeds: int) -> None:
     """Say in the picture that it shows a few seeds only, too few to judge by."""
     with style():
         figure.text(
-            0.995,
+            0.005,
             0.005,
             f"demo, n = {seeds}",
-            ha="right",
+            ha="left",
             va="bottom",
             color=COLOURS[1],
             fontsize=8,
