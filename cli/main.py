@@ -203,7 +203,7 @@ def twin(
     pty: Annotated[Path, typer.Option(help="Serial port of the neck, to make.")] = Path("neck"),
     stream: Annotated[int, typer.Option(help="TCP port of the camera; 0: a free one.")] = 8090,
     watching: Annotated[
-        str, typer.Option(help="Who watches a demonstrator: demo-record or mimic.")
+        str, typer.Option(help="Who watches a demonstrator: demo-record, mimic or replay.")
     ] = "demo-record",
     fault: Annotated[
         list[str] | None,

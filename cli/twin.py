@@ -25,7 +25,7 @@ from imitation.robots.twin import CAMERA_FAULTS, Twin
 
 RATE, QUALITY = 25.0, 100  # of the camera: pictures per second [Hz], quality of its JPEGs
 # Commands that watch a demonstrator, each from its own gaze, and what they must be told.
-WATCHING = {"demo-record": (), "mimic": ("map=given",)}
+WATCHING = {"demo-record": (), "mimic": ("map=given",), "replay": ("map=given", "action=given")}
 NECK = "neck_"  # before the name of a fault of the neck
 NECK_FAULTS = {NECK + name: told for name, told in ssc32_emulator.FAULTS.items()}
 

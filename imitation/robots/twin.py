@@ -90,6 +90,8 @@ class Twin:
         self._have_demonstrated(now, resting=bool((posture == self._followed).all()))
         self.arm.move((posture - self._followed) * self.rate, opening, 1 / self.rate)
         self._followed = posture
+        felt, sensors = self.arm.read(), self.katana.sensors
+        sensors.distance, sensors.pressed = felt.proximity, felt.touching
         if self.faults.at(now, "camera_gone"):
             return
         if not (self._shown and self.faults.at(now, "camera_frozen")):

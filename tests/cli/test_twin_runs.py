@@ -112,3 +112,39 @@ def test_a_device_that_fails_ends_the_run_with_a_readable_recording(fault, told,
     assert re.search(told, last)
     assert re.search(told, events(tmp_path / "run")["device"])
     assert json.loads((tmp_path / "run" / "metrics.json").read_text())["status"] == "failed"
+
+
+@pytest.mark.slow
+@pytest.mark.timeout(600)
+@pytest.mark.parametrize(
+    ("fault", "why"),
+    [("camera_gone@16-17", "stale vision"), ("camera_frozen@16-20", "frozen vision")],
+)
+def test_while_the_camera_fails_the_arm_rests_and_then_goes_on(fault, why, tmp_path):
+    with twin(tmp_path, "--fault", fault) as there:
+        run = imitate(tmp_path, "learn-map", *there, *SWIFT, "learning.limit=25", "out=run")
+    assert run.returncode in (0, 1), run.stderr
+    recording = Recording.open(tmp_path / "run" / "run.mcap")
+    told = [one.msg for _, one in recording.messages("/events") if one.name == "limited"]
+    first = next(number for number, text in enumerate(told) if why in text)
+    assert any(why not in text for text in told[first + 1 :])
+
+
+@pytest.mark.slow
+@pytest.mark.timeout(600)
+def test_a_run_that_is_ended_freezes_the_arm_and_leaves_its_recording(tmp_path):
+    with twin(tmp_path) as there:
+        call = [*PROGRAM, "learn-map", *there, *SWIFT, "out=run"]
+        with subprocess.Popen(call, stderr=subprocess.PIPE, text=True, cwd=tmp_path) as process:
+            for line in process.stderr:
+                if "s of robot time" in line:
+                    break
+            process.terminate()
+            process.communicate(timeout=20)
+        assert process.returncode == 130
+        doctor = json.loads(imitate(tmp_path, "doctor", *there, "--json").stdout)
+    told = {one["subject"]: one for one in doctor}
+    assert told["motors"]["told"].startswith("status 8 8 8 8 8 8")
+    assert told["camera"]["verdict"] == told["neck"]["verdict"] == "pass"
+    assert json.loads((tmp_path / "run" / "metrics.json").read_text())["status"] == "interrupted"
+    Recording.open(tmp_path / "run" / "run.mcap")

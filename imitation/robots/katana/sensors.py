@@ -8,7 +8,7 @@ CENTRE = 11  # infrared, looks out of the palm
 RIGHT_FORCE, LEFT_FORCE = (6, 7), (14, 15)
 INFRARED = (0, 1, 4, 5, 8, 9, 11, 12, 13)
 NOTHING_THERE = (20, 34, 0, 0, 51, 47, 3, 5, 21, 33, 0, 90, 52, 48, 4, 6)
-SOMETHING_THERE = 200  # infrared
+CLOSE, REACH = 220, 0.05  # infrared when a thing touches the palm, and how far that looks [m]
 PRESSED = 120  # force
 JITTER = 1  # of infrared: a real one is never still
 
@@ -47,6 +47,8 @@ class EmulatedSensors:
     """The sensors of an emulated gripper."""
 
     thing: int | None = None  # encoder at which the fingers touch what is between them
+    distance: float = float("inf")  # from the palm to what is between the fingers [m]
+    pressed: bool = False  # both fingers touch it
     frozen: bool = False
     _told: tuple[int, ...] = NOTHING_THERE
 
@@ -57,10 +59,11 @@ class EmulatedSensors:
         told = list(NOTHING_THERE)
         for place in INFRARED:
             told[place] += round(time * 10) % (JITTER + 1)
-        if self.thing is not None:
-            told[CENTRE] = SOMETHING_THERE
-            if gripper <= self.thing:
-                for place in (*RIGHT_FORCE, *LEFT_FORCE):
-                    told[place] = PRESSED
+        near = 0.0 if self.thing is not None else self.distance
+        if near < REACH:
+            told[CENTRE] = round(CLOSE - near / REACH * (CLOSE - NOTHING_THERE[CENTRE]))
+        if self.pressed or (self.thing is not None and gripper <= self.thing):
+            for place in (*RIGHT_FORCE, *LEFT_FORCE):
+                told[place] = PRESSED
         self._told = tuple(told)
         return self._told
