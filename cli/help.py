@@ -65,6 +65,7 @@ EXAMPLES = {
         ("imitate replay map=RUN action=RUN replay.precision=area", "as in the paper: eyes closed"),
         ("imitate replay map=RUN action=RUN 'demonstrator.place=[85,75]'", "it begins later on"),
         ("imitate replay map=RUN action=RUN object=null", "without the can"),
+        ("imitate replay map=RUN action=RUN experiment=deferred_controls", "beside chance"),
     ],
     "figure": [
         ("imitate figure fig3a", "all seeds; exit code 1 when a claim fails"),

@@ -15,6 +15,7 @@ from imitation.recall import Recall
 from imitation.recording.action_file import Action
 from imitation.sample import Sample
 from imitation.sequence import Replay
+from imitation.stages.exploring import Wandering, explore
 from imitation.stages.replay import Ending, replay
 from imitation.visuo_motor_map import VisuoMotorMap
 
@@ -71,3 +72,19 @@ def detours_of(bench: Bench) -> Detours:
     settings, asked = bench.cfg["robot"]["grasp"], signature(Detours).parameters
     nowhere = np.zeros_like(bench.rest)
     return Detours(**{name: np.array(settings[name]) if settings else nowhere for name in asked})
+
+
+def exploring(bench: Bench, learned: VisuoMotorMap, lasting: float) -> Iterator[Sample]:
+    """As long a stay before the same things, without an action."""
+    asked = bench.cfg["controls"]
+    return explore(
+        bench.robot,
+        bench.perception(learned.field),
+        learned,
+        bench.dynamics,
+        reflex_of(bench),
+        detours_of(bench).lifted,
+        bench.rest,
+        Wandering(lasting, asked["noise_level"], asked["noise_steps"]),
+        generator(bench.cfg["seed"], "noise"),
+    )

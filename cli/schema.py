@@ -386,6 +386,15 @@ class Arriving(Section):
     pairing: Positive
 
 
+class DeferredControls(Section):
+    """`controls` of replay."""
+
+    seeds: Count
+    noise_level: NotNegative
+    noise_steps: Count
+    workers: Count
+
+
 class Replay(Common):
     """`imitate replay`."""
 
@@ -397,6 +406,7 @@ class Replay(Common):
     replay: Replaying
     arrivals: Arrivals
     arriving: Arriving
+    controls: DeferredControls | None
 
 
 class Figure(Section):

@@ -35,7 +35,12 @@ def replay_action(run: Run) -> Outcome:
     except KeyboardInterrupt:
         say(f"the arm was stopped {recall.where}")
         raise
-    return outcome(metrics.result(), len(action.states))
+    told = outcome(metrics.result(), len(action.states))
+    if not run.cfg["controls"]:
+        return told
+    from cli.deferred_controls import Shown, controls, with_controls  # needs this module
+
+    return with_controls(told, controls(Shown(run.cfg, stored.map, action)))
 
 
 def the_action(run: Run) -> Action:

@@ -12,6 +12,7 @@ from imitation.sample import Sample
 from imitation.visual_field import Area, VisualField
 
 PASSING = 0.3  # another learned state may be crossed for this long on the way [s]
+PLACED = 0.04  # an object is where the demonstrator put it when it stands this near [m]
 CARRIED_FOR = 1.0  # a thing that moves with the hand this long is grasped [s]
 CARRIED_FAR = 0.02  # it must have moved this far in that time [m]
 SLIPPED = 0.015  # and by no more than this otherwise than the hand [m]
@@ -200,3 +201,15 @@ def _apart(end: Array | None, goal: Array | None) -> float | None:
     if end is None or goal is None or np.isnan(end).any():
         return None
     return float(np.linalg.norm(end[:2] - goal[:2]))
+
+
+def acts_done(metrics: dict[str, Any]) -> float:
+    """Share of the target acts of a replay that were done: each state in order, grasp, put down."""
+    placed = metrics["object_error_m"] is not None and metrics["object_error_m"] <= PLACED
+    done = metrics["states_replayed"] + metrics["grasped"] + placed
+    return float(done / (metrics["states_asked"] + 2)) if metrics["states_asked"] else 0.0
+
+
+def all_in_order(metrics: dict[str, Any]) -> bool:
+    """Whether a replay did all target acts, in order."""
+    return bool(metrics["order_correct"] and acts_done(metrics) == 1.0)
