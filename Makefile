@@ -7,9 +7,9 @@ PYTHON ?= python3
 UV := $(shell command -v uv 2>/dev/null || echo .uv/bin/uv)
 RUN := .venv/bin
 READY := .venv/.ready
-FIGURES := fig1 fig2 fig3 fig4 fig5 fig6
+FIGURES := fig1 fig2 fig3 fig4 fig5 fig6 fig7
 
-.PHONY: help setup demo test test-full check bench results figures $(FIGURES) view clean
+.PHONY: help setup demo test test-full check bench results figures $(FIGURES) video7 view clean
 
 help: ## list the targets
 	@grep -hE '^[a-z0-9 -]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:[^#]*## /|/' | awk -F'|' '{printf "  make %-26s %s\n", $$1, $$2}'
@@ -46,7 +46,7 @@ bench: $(READY) ## ratios of speed and memory against their bounds, into data/be
 results: $(READY) ## the numbers of docs/results.md over 20 untuned seeds; about an hour
 	$(RUN)/python -m cli.results
 
-fig1 fig2 fig4 fig5 fig6: $(READY) ## a figure of the paper with its claims, all seeds
+fig1 fig2 fig4 fig5 fig6 fig7: $(READY) ## a figure of the paper with its claims, all seeds
 	$(RUN)/imitate figure $@
 
 fig3: $(READY) ## both panels of Fig. 3
@@ -54,8 +54,11 @@ fig3: $(READY) ## both panels of Fig. 3
 	$(RUN)/imitate figure fig3b
 
 figures: $(READY) ## all figures; exit code 1 when a claim fails
-	@failed=0; for name in fig1 fig2 fig3a fig3b fig4 fig5 fig6; do \
+	@failed=0; for name in fig1 fig2 fig3a fig3b fig4 fig5 fig6 fig7; do \
 	  $(RUN)/imitate figure $$name || failed=1; done; exit $$failed
+
+video7: $(READY) ## the film that accompanies Fig. 7
+	$(RUN)/python -m cli.video7
 
 view: $(READY) ## open the newest run in Rerun
 	$(RUN)/imitate view "$$(ls -td data/runs/*/*/ | head -n 1)"

@@ -9,4 +9,5 @@ FIGURES = {
     "fig4": ("fig4", "cli.figure_runs.fig4"),
     "fig5": ("fig5", "cli.figure_runs.fig5"),
     "fig6": ("fig6", "cli.fig6_runs.fig6"),
+    "fig7": ("fig7", "cli.fig7_runs.fig7"),
 }

@@ -13,6 +13,7 @@ from imitation.robots.bullet.photograph import projection_matrix, view_matrix
 from imitation.robots.bullet.world import World
 
 DARK, LIGHT = (0.16, 0.17, 0.20, 1.0), (0.62, 0.64, 0.68, 1.0)  # of camera and stand, RGBA
+SKIN = (0.88, 0.67, 0.55, 1.0)  # RGBA
 LIGHTING = {
     "shadow": 1,
     "lightDirection": (0.6, -1.0, 2.2),
@@ -63,10 +64,14 @@ class Portrait:
             eye: Optical centre of the robot's camera (3,) [m].
             gaze: Of that camera, pan and tilt [rad].
         """
-        shared = {one.name: getattr(world, one.name) for one in fields(world) if one.init}
-        lit = LitWorld(**shared)
-        lit.rebuild(posture, opening=1.0)
+        lit = lit_up(world, posture)
         lit.add_camera(eye, gaze)
+        drawn = self.drawn(lit)
+        lit.close()
+        return drawn
+
+    def drawn(self, lit: "LitWorld") -> Image:
+        """The picture of a lit world as it is now, RGB, (height, width, 3)."""
         space, finer = self.space, self.finer
         large = VisualSpace(
             (space.size[0] * finer, space.size[1] * finer),
@@ -75,13 +80,31 @@ class Portrait:
             space.reference,
         )
         view = view_matrix(np.asarray(self.eye), np.asarray(space.reference))
-        drawn = lit.picture(view, projection_matrix(large), large.size)
-        lit.close()
-        return shrunk(drawn, finer)
+        return shrunk(lit.picture(view, projection_matrix(large), large.size), finer)
+
+
+@dataclass(frozen=True)
+class Moment:
+    """How everything stood at one time."""
+
+    time: float  # [s]
+    posture: Array  # of the arm, (n_joints,) [rad]
+    opening: float  # of its gripper, 0 closed .. 1 open
+    thing: Array | None  # pose of the object, (7,) [m]; None: there is none
+    other: Array | None  # mark on the demonstrator's hand, (3,) [m]; None: not in sight
+
+
+def lit_up(world: World, posture: Array) -> "LitWorld":
+    """A lit world like `world`, with the arm at `posture` [rad]."""
+    lit = LitWorld(**{one.name: getattr(world, one.name) for one in fields(world) if one.init})
+    lit.rebuild(posture, opening=1.0)
+    return lit
 
 
 class LitWorld(World):
     """A world with everything in it that a person would see."""
+
+    _arm_of_other: list[tuple[int, Array]] | None = None
 
     def picture(self, view: Array, projection: Array, size: tuple[int, int]) -> Image:
         """A lit picture, RGB, (height, width, 3)."""
@@ -95,6 +118,51 @@ class LitWorld(World):
             **LIGHTING,
         )
         return np.asarray(pixels, dtype=np.uint8).reshape(height, width, 4)[..., :3]
+
+    def arrange(self, moment: Moment) -> None:
+        """Put everything where it stood at `moment`."""
+        call = {"physicsClientId": self._client}
+        for joint, angle in zip(self._joints, moment.posture, strict=True):
+            pybullet.resetJointState(self._arm, joint, angle, **call)
+        if self._gripper:
+            self._gripper.place(moment.opening)
+        self.carry_mark()
+        if self._can and moment.thing is not None:
+            at, turned = moment.thing[:3].tolist(), moment.thing[3:].tolist()
+            pybullet.resetBasePositionAndOrientation(self._can.body, at, turned, **call)
+        if self._arm_of_other is None:
+            self._arm_of_other = self._forearm()
+        aside = np.array((0.0, 0.0, -10.0)) if moment.other is None else moment.other
+        for body, off in self._arm_of_other:
+            _, turned = pybullet.getBasePositionAndOrientation(body, **call)
+            pybullet.resetBasePositionAndOrientation(body, (aside + off).tolist(), turned, **call)
+
+    def _forearm(self) -> list[tuple[int, Array]]:
+        """A demonstrator's forearm and the tag on its hand: each body, and where from the tag."""
+        call = {"physicsClientId": self._client}
+        along = np.array((0.62, 0.25, 0.50))
+        along /= np.linalg.norm(along)
+        turned = pybullet.getQuaternionFromEuler(
+            (0.0, float(np.arccos(along[2])), float(np.arctan2(along[1], along[0])))
+        )
+        tag = pybullet.createVisualShape(
+            pybullet.GEOM_SPHERE, radius=0.010, rgbaColor=self.mark.colour, **call
+        )
+        limb = pybullet.createVisualShape(
+            pybullet.GEOM_CAPSULE, radius=0.026, length=0.28, rgbaColor=SKIN, **call
+        )
+        fist = pybullet.createVisualShape(
+            pybullet.GEOM_SPHERE, radius=0.034, rgbaColor=SKIN, **call
+        )
+        below = np.array((0.0, 0.0, -0.040))
+        return [
+            (pybullet.createMultiBody(0.0, -1, tag, **call), np.zeros(3)),
+            (pybullet.createMultiBody(0.0, -1, fist, **call), below),
+            (
+                pybullet.createMultiBody(0.0, -1, limb, baseOrientation=turned, **call),
+                below + 0.16 * along,
+            ),
+        ]
 
     def add_camera(self, eye: Array, gaze: Array) -> None:
         """Put a camera at `eye` [m] on a two-axis neck, on a stand that begins on the table."""
