@@ -3,7 +3,14 @@
 import numpy as np
 import pytest
 
-from imitation.analysis.deferred import Visit, carried, in_order, visits_of
+from imitation.analysis.deferred import (
+    Visit,
+    acts_done,
+    all_in_order,
+    carried,
+    in_order,
+    visits_of,
+)
 from imitation.visual_field import VisualField
 
 FIELD = VisualField("right_4x4", (160, 120), 4, 4, 40.0)
@@ -68,3 +75,22 @@ def test_a_thing_that_lags_is_not_touched_or_does_not_move_is_not_grasped():
     assert not moved(hand=0.2, thing=0.1)
     assert not moved(hand=0.2, thing=0.2, touching=False)
     assert not moved(hand=0.0, thing=0.0)
+
+
+def scored(**changes) -> dict:
+    """Metrics of a replay that did everything, but for `changes`."""
+    whole = {"states_asked": 3, "states_replayed": 3, "grasped": True, "object_error_m": 0.01}
+    return {**whole, "order_correct": True, **changes}
+
+
+def test_target_acts_are_the_states_the_grasp_and_the_putting_down():
+    assert acts_done(scored()) == 1.0
+    assert acts_done(scored(grasped=False)) == pytest.approx(0.8)
+    assert acts_done(scored(object_error_m=0.05)) == pytest.approx(0.8)
+    assert acts_done(scored(object_error_m=None, grasped=False, states_replayed=0)) == 0.0
+
+
+def test_all_acts_in_another_order_are_not_all_in_order():
+    assert all_in_order(scored())
+    assert not all_in_order(scored(order_correct=False))
+    assert not all_in_order(scored(grasped=False))

@@ -116,8 +116,10 @@ def test_an_experiment_composes_for_a_command_at_least(name):
     composed = 0
     with initialize_config_module("conf", version_base="1.3"):
         given = ["map=somewhere"]
-        for command, more in (("learn-map", []), ("reach", given), ("mimic", given)):
-            # One about controllers or mimicry does not fit learn-map.
+        both = [*given, "action=somewhere"]
+        commands = {"learn-map": [], "reach": given, "mimic": given, "replay": both}
+        for command, more in commands.items():
+            # One about controllers or imitation does not fit learn-map.
             with suppress(ConfigCompositionException, UserError):
                 cfg = compose(command.replace("-", "_"), [f"experiment={name}", *more])
                 checked(command, cfg)
