@@ -43,9 +43,8 @@ def verify(run: Path) -> int:
     told += [("decisions", _differing(found) if found.differing else "the same, bit for bit")]
     told += list(_versions(recording))
     show("imitate verify", told, found)
-    complaints = [one.sentence for one in breaks] + [f"recomputing ended: {stopped}"] * bool(
-        stopped
-    )
+    complaints = [one.sentence for one in breaks]
+    complaints += [f"recomputing ended: {stopped}"] if stopped else []
     complaints += [found.first.sentence] if found.first else []
     for complaint in complaints:
         say(complaint)

@@ -2,7 +2,6 @@
 
 import json
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -11,7 +10,7 @@ import numpy as np
 import pyarrow as pa  # type: ignore[import-untyped]
 import pyarrow.parquet as pq  # type: ignore[import-untyped]
 
-from imitation.arrays import Array
+from imitation.analysis.running_statistics import Statistics
 from imitation.recording.mcap_recording import Recording
 from imitation.recording.recorded_steps import StepTold, steps_told
 from imitation.robot import SECOND
@@ -20,33 +19,6 @@ STATE, ACTION, CAMERA = "observation.state", "action", "observation.images.camer
 COUNTED = ("frame_index", "episode_index", "index", "task_index")
 DATA = "data/chunk-{chunk_index:03d}/file-{file_index:03d}.parquet"
 EPISODES = "meta/episodes/chunk-000/file-000.parquet"
-
-
-@dataclass
-class Statistics:
-    """Smallest, largest, mean and spread of a vector over all frames."""
-
-    count: int = 0
-    low: Any = np.inf
-    high: Any = -np.inf
-    total: Any = 0.0
-    squares: Any = 0.0
-
-    def add(self, values: Array) -> None:
-        """Vectors of some frames, (n, length)."""
-        self.count += len(values)
-        self.low = np.minimum(self.low, values.min(axis=0))
-        self.high = np.maximum(self.high, values.max(axis=0))
-        self.total = self.total + values.sum(axis=0)
-        self.squares = self.squares + (values**2).sum(axis=0)
-
-    def told(self, shape: tuple[int, ...]) -> dict[str, Any]:
-        """As the dataset tells it."""
-        mean = self.total / self.count
-        spread = np.sqrt(np.maximum(self.squares / self.count - mean**2, 0.0))
-        parts = {"min": self.low, "max": self.high, "mean": mean, "std": spread}
-        numbers = {name: np.reshape(part, shape).tolist() for name, part in parts.items()}
-        return numbers | {"count": [self.count]}
 
 
 class Dataset:

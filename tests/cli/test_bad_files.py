@@ -17,7 +17,7 @@ from cli.recover import recover_run
 from cli.verify import verify
 
 EXAMPLES = 40  # damaged recordings in the usual tests
-MANY = 1000  # in all of them
+MANY = 2000  # in all of them
 LIMITS = {
     "deadline": None,
     "suppress_health_check": [HealthCheck.function_scoped_fixture, HealthCheck.too_slow],
@@ -92,7 +92,7 @@ def test_a_damaged_recording_is_one_line(small, tmp_path, capsys, damage, name):
 
 
 @pytest.mark.slow
-@pytest.mark.timeout(1200)
+@pytest.mark.timeout(3600)
 @settings(max_examples=MANY, **LIMITS)
 @given(damages, st.sampled_from(sorted(COMMANDS)))
 def test_many_damaged_recordings_are_one_line(small, tmp_path, capsys, damage, name):
