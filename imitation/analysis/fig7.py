@@ -130,8 +130,7 @@ def _of_other_conditions(runs: Runs) -> list[Claim]:
         found.append(every_claim(f"Order of the states: {name}.", _of(told, "order_correct")))
         placed = _placed(told)
         if name.startswith("without"):
-            nobody = 1.0 - _of(told, "grasped")
-            found.append(every_claim(f"Control: nothing is carried {name}.", nobody))
+            found.append(every_claim(f"Control: the can is not put there {name}.", 1.0 - placed))
         elif any(one["object_error_m"] is not None for one in told) and "later" not in name:
             sentence = f"The can stands within {100 * PLACED:g} cm of its goal: {name}."
             found.append(_share(sentence, placed, 0.0))
