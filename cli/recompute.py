@@ -100,6 +100,12 @@ def _reaching(bench: Bench) -> Staged:
     return stored.map.field, stages.reaching(bench, stored.map, trials_of(bench, stored))
 
 
+def _checking(bench: Bench) -> Staged:
+    learned = load_map(Path(bench.cfg["map"])).map
+    _, samples = stages.checking(bench, learned)
+    return learned.field, samples
+
+
 def _mimicking(bench: Bench) -> Staged:
     learned = load_map(Path(bench.cfg["map"])).map
     stage = stages.drawing if bench.cfg["mirror"] else stages.mimicking
@@ -121,6 +127,7 @@ def _replaying(bench: Bench) -> Staged:
 STAGES: Mapping[str, Callable[[Bench], Staged]] = {
     "learn-map": _learning,
     "reach": _reaching,
+    "check-map": _checking,
     "mimic": _mimicking,
     "demo-record": _watching,
     "replay": _replaying,

@@ -10,6 +10,7 @@ from imitation.controllers.corrected_aim import CorrectedAim
 from imitation.robots.gestures import Mirrored
 from imitation.sample import Sample
 from imitation.stages.babbling import Babbling, Curiosity
+from imitation.stages.check_map import Visit, Visiting, check_map
 from imitation.stages.demo_record import Watching, demo_record
 from imitation.stages.draw import draw
 from imitation.stages.learn_map import Learner, LearningRun, learn_map
@@ -51,6 +52,16 @@ def watching(bench: Bench) -> tuple[VisualStates, Iterator[Sample]]:
     return states, demo_record(
         bench.robot, perception, bench.dynamics, states, settings, bench.rest
     )
+
+
+def checking(bench: Bench, learned: VisuoMotorMap) -> tuple[list[Visit], Iterator[Sample]]:
+    """The postures that a check of a map visits, and the steps of visiting them."""
+    cfg, (postures, places) = bench.cfg["check"], learned.memories()
+    drawn = generator(bench.cfg["seed"], "check").permutation(len(postures))[: cfg["postures"]]
+    visits = [Visit(postures[one], places[one]) for one in sorted(drawn)]
+    visiting = Visiting(**{name: cfg[name] for name in signature(Visiting).parameters})
+    perception = bench.perception(learned.field)
+    return visits, check_map(bench.robot, perception, bench.dynamics, visits, visiting)
 
 
 def mimicking(bench: Bench, learned: VisuoMotorMap) -> Iterator[Sample]:

@@ -6,12 +6,13 @@ import hydra
 import numpy as np
 from omegaconf import DictConfig
 
-from cli.build import Config, generator
+from cli.build import Config
 from cli.job import job
 from cli.jobs.reach import the_map
 from cli.run import Outcome, Run
+from cli.stages import checking
 from imitation.arrays import Array
-from imitation.stages.check_map import Visit, Visiting, check_map
+from imitation.stages.check_map import Visit
 
 
 @hydra.main(version_base="1.3", config_path="pkg://conf", config_name="check_map")
@@ -22,15 +23,10 @@ def main(cfg: DictConfig) -> int:
 
 def check(run: Run) -> Outcome:
     """Visit learned postures and judge what is seen there."""
-    learned, bench, cfg = the_map(run).map, run.bench, run.cfg["check"]
-    postures, places = learned.memories()
-    drawn = generator(run.cfg["seed"], "check").permutation(len(postures))[: cfg["postures"]]
-    visits = [Visit(postures[one], places[one]) for one in sorted(drawn)]
-    visiting = Visiting(**{key: cfg[key] for key in ("slowness", "arrival", "frames", "blocked")})
-    perception = bench.perception(learned.field)
-    samples = check_map(bench.robot, perception, bench.dynamics, visits, visiting)
+    learned = the_map(run).map
+    visits, samples = checking(run.bench, learned)
     run.record(samples, learned.field)
-    return outcome(visits, cfg)
+    return outcome(visits, run.cfg["check"])
 
 
 def outcome(visits: Sequence[Visit], cfg: Config) -> Outcome:
