@@ -140,9 +140,10 @@ class Run:
         """Derive run.rrd; a run without a step has nothing to show."""
         if self.steps:
             os.environ.setdefault("RUST_LOG", "error")  # Rerun warns of meshes it does not find
+            from cli.view import demonstration_of
             from imitation.recording.rerun_view import derive  # takes a second
 
-            derive(self.folder, self.folder / "run.rrd")
+            derive(self.folder, self.folder / "run.rrd", demonstration_of(self.folder))
 
     def write_metrics(self, status: str, more: Config) -> None:
         """Write metrics.json; what is no number becomes null."""

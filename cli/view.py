@@ -5,6 +5,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+import yaml
+
 from cli.errors import DEVICE, DONE, UserError, say
 from imitation.recording.rerun_view import derive, screenshot
 
@@ -33,5 +35,17 @@ def _rrd_of(run: Path) -> Path:
     recording = run / "run.mcap" if run.is_dir() else run
     rrd = recording.with_suffix(".rrd")
     if not rrd.exists():
-        derive(recording, rrd)
+        derive(recording, rrd, demonstration_of(recording.parent))
     return rrd
+
+
+def demonstration_of(run: Path) -> Path | None:
+    """The recording of the demonstration that a run replays, if it lies where it was."""
+    config = run / "config.yaml"
+    told = yaml.safe_load(config.read_text()) if config.is_file() else None
+    action = told.get("action") if isinstance(told, dict) else None
+    if not isinstance(action, str):
+        return None
+    named = Path(action).expanduser()
+    recording = (named if named.is_dir() else named.parent) / "run.mcap"
+    return recording if recording.is_file() else None

@@ -166,6 +166,10 @@ class Batch:
     def __contains__(self, topic: str) -> bool:
         return topic in self._told
 
+    def type_of(self, topic: str) -> str:
+        """The message type of a topic."""
+        return self._topics[topic].type
+
     def times(self, topic: str) -> Times:
         """When the messages of a topic were said, (n,) [ns]."""
         return np.array([message.time_ns for message in self._told.get(topic, ())], dtype=np.int64)

@@ -75,6 +75,14 @@ def test_learned_places_of_an_attached_map_are_shown(derived):
     assert "/camera/learned_before" in entities
 
 
+def test_a_demonstration_is_shown_beside_its_replay(record, tmp_path):
+    path = record()
+    derive(path.parent, tmp_path / "run.rrd", demonstration=path)
+    chunks = rr.chunk.RrdReader(tmp_path / "run.rrd").stream().to_chunks()
+    entities = {chunk.entity_path for chunk in chunks}
+    assert {"/demonstration/image", "/demonstration/hand", "/camera/image"} <= entities
+
+
 def test_cut_recording_is_shown_up_to_the_cut(record, tmp_path):
     path = record(steps=100)
     path.write_bytes(path.read_bytes()[:60_000])

@@ -7,6 +7,7 @@ import rerun as rr
 
 from imitation.recording.mcap_recording import Recording
 from imitation.recording.picture_columns import Batch, Overview
+from imitation.recording.rerun_view.demonstration import Demonstration
 from imitation.recording.rerun_view.drawing import Drawing
 from imitation.recording.rerun_view.live import LiveView
 from imitation.recording.rerun_view.panels import blueprint
@@ -17,12 +18,13 @@ __all__ = ["LiveView", "derive", "screenshot"]
 CHUNKS_AT_ONCE = 6  # of the recording; more would be faster by little and need more memory
 
 
-def derive(run: Path, rrd: Path) -> None:
+def derive(run: Path, rrd: Path, demonstration: Path | None = None) -> None:
     """Write the Rerun file of a recording.
 
     Args:
         run: A run folder or its `run.mcap`; may be cut.
         rrd: Where to write; replaced if it exists.
+        demonstration: The run that a replay reproduces, to be shown beside it.
 
     Raises:
         ValueError: There is no recording at `run`, it is damaged, or it holds no step.
@@ -31,10 +33,12 @@ def derive(run: Path, rrd: Path) -> None:
     recording = Recording.open(run)
     shown = Overview.of(recording)
     stream = rr.RecordingStream("imitation", send_properties=False)
-    stream.save(rrd, default_blueprint=blueprint(shown))
+    stream.save(rrd, default_blueprint=blueprint(shown, demonstration is not None))
     try:
         drawing = Drawing(shown)
         drawing.draw_constants(stream)
+        if demonstration is not None:
+            Demonstration.of(demonstration, recording).draw(stream, CHUNKS_AT_ONCE)
         chunks = recording.chunks()
         while told := list(itertools.islice(chunks, CHUNKS_AT_ONCE)):
             drawing.draw(stream, Batch(itertools.chain.from_iterable(told), recording.topics))

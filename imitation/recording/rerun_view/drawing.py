@@ -2,7 +2,7 @@
 
 import itertools
 from collections.abc import Sequence
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 import rerun as rr
@@ -11,6 +11,15 @@ from imitation.recording import messages
 from imitation.recording.picture_columns import Batch, Overview, learned_places
 from imitation.recording.rerun_view.body_drawing import BodyDrawing
 from imitation.recording.rerun_view.columns import send
+from imitation.recording.rerun_view.look import (
+    CYAN,
+    FAINT,
+    GREEN,
+    WHITE,
+    YELLOW,
+    image_format,
+    pictures,
+)
 from imitation.recording.rerun_view.panels import fields
 
 GUIDE = """# What is what
@@ -21,6 +30,8 @@ GUIDE = """# What is what
 - white ring: where the robot's own hand truly is (known in simulation alone)
 - yellow: the target
 - green: where the hand was when an area was learned
+
+**Demonstration** beside a replay: what was watched, timed so that what triggered it coincides
 
 **Fields** what each area of the picture means to the robot
 
@@ -44,8 +55,6 @@ COLOURS = [
 FIRST_COLOUR = {"curves/dynamics/noise_level": 1, "curves/places/own": 2}
 TURN = np.linspace(0, 2 * np.pi, 17)
 RING = 2.5 * np.column_stack((np.cos(TURN), np.sin(TURN)))  # around the true hand [px]
-FAINT = (255, 255, 255, 90)
-CYAN, WHITE, YELLOW, GREEN = (0, 220, 255), (255, 255, 255), (255, 220, 0), (60, 220, 90)
 PLACES = {"/hand": ("camera/hand", CYAN, 1.2), "/target": ("camera/target", YELLOW, 1.6)}
 
 
@@ -135,7 +144,7 @@ class Drawing:
 
     def _draw_camera(self, stream: rr.RecordingStream, batch: Batch) -> None:
         if "/camera/image" in batch:
-            send(stream, "camera/image", batch.times("/camera/image"), self._pictures(batch))
+            send(stream, "camera/image", batch.times("/camera/image"), pictures(batch))
         captured = batch.captured()
         for topic in set(PLACES) & set(self._shown.topics):
             places, told = batch.places(topic)
@@ -152,12 +161,6 @@ class Drawing:
             places = np.concatenate([self._learned[:end] for end in ends])
             points = rr.Points2D.columns(positions=places).partition(list(ends))
             send(stream, "camera/learned", np.array(list(learned)), points)
-
-    def _pictures(self, batch: Batch) -> Any:
-        if self._shown.topics["/camera/image"].type == messages.COMPRESSED_IMAGE:
-            blobs = [message.data.tobytes() for message in batch.messages("/camera/image")]
-            return rr.EncodedImage.columns(blob=blobs, media_type=["image/jpeg"] * len(blobs))
-        return rr.Image.columns(buffer=batch.pixels())
 
     def _draw_fields(self, stream: rr.RecordingStream, batch: Batch) -> None:
         for topic, (entity, _) in fields(self._shown).items():
@@ -201,12 +204,3 @@ def short(names: Sequence[str]) -> list[str]:
     while all(len(name) > 1 for name in words) and len({name[-1] for name in words}) == 1:
         words = [name[:-1] for name in words]
     return [" ".join(name) for name in words]
-
-
-def image_format(
-    width: int, height: int, colours: Literal["RGB", "L"]
-) -> rr.components.ImageFormat:
-    """How the pixels of a picture of bytes lie."""
-    return rr.components.ImageFormat(
-        width=width, height=height, color_model=colours, channel_datatype="U8"
-    )

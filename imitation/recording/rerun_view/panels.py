@@ -23,16 +23,26 @@ FIELDS = {
 LEGEND = 1.4  # end of the curves' time axis [durations of the run]: the legend lies beside the run
 
 
-def blueprint(shown: Overview) -> rrb.Blueprint:
-    """Camera and fields on the left, curves in the middle, arm and words on the right."""
-    left = rrb.Vertical(_camera(shown), rrb.Horizontal(*_fields(shown)), row_shares=[3, 1.2])
+def blueprint(shown: Overview, demonstrated: bool = False) -> rrb.Blueprint:
+    """Camera and fields on the left, curves in the middle, arm and words on the right.
+
+    Args:
+        shown: What there is to show.
+        demonstrated: Whether the demonstration is shown beside its reproduction.
+    """
+    camera: rrb.View | rrb.Container = _camera(shown)
+    if demonstrated:
+        camera = rrb.Horizontal(_demonstration(shown), camera)
+    left = rrb.Vertical(
+        camera, rrb.Horizontal(*_fields(shown)), row_shares=[2 if demonstrated else 3, 1.2]
+    )
     arm = [_arm()] if shown.urdf else []
     return rrb.Blueprint(
         rrb.Horizontal(
             left,
             rrb.Vertical(*_curves(shown)),
             rrb.Vertical(*arm, *_events(shown), _words(shown)),
-            column_shares=[4, 3, 3],
+            column_shares=[6 if demonstrated else 4, 3, 3],
         ),
         rrb.TimePanel(state="collapsed", timeline=TIMELINE),
         rrb.BlueprintPanel(state="hidden"),
@@ -49,6 +59,12 @@ def fields(shown: Overview) -> dict[str, tuple[str, str]]:
 def _camera(shown: Overview) -> rrb.View:
     return rrb.Spatial2DView(
         origin="camera", name="Camera: what the robot sees", visual_bounds=_bounds(shown, 1)
+    )
+
+
+def _demonstration(shown: Overview) -> rrb.View:
+    return rrb.Spatial2DView(
+        origin="demonstration", name="Demonstration", visual_bounds=_bounds(shown, 1)
     )
 
 
