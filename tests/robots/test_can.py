@@ -224,14 +224,14 @@ def test_an_arm_without_an_engine_has_no_object():
     assert bench("learn-map", "+object=can", "robot=ideal").thing is None
 
 
-@pytest.mark.parametrize("body", ["katana_sim", "kuka_sim"])
+@pytest.mark.parametrize("body", ["katana_sim", "kuka_sim", "so101_sim"])
 def test_at_rest_no_part_of_the_arm_is_in_view(body):
     parts = bench("learn-map", f"robot={body}")
     frame = parts.robot.reset(parts.rest).frame
     assert len(np.unique(frame.reshape(-1, 3), axis=0)) == 1
 
 
-@pytest.mark.parametrize("body", ["katana_sim", "kuka_sim"])
+@pytest.mark.parametrize("body", ["katana_sim", "kuka_sim", "so101_sim"])
 def test_from_rest_the_arm_comes_to_every_place_well_above_the_table(body):
     parts = bench("learn-map", f"robot={body}")
     grasp, rng = parts.cfg["robot"]["grasp"], np.random.default_rng(0)

@@ -7,7 +7,7 @@ from on_bench import bench
 from cli.build import Bench
 from imitation.robot import Command
 
-BODIES = ["ideal", "katana_sim", "kuka_sim"]
+BODIES = ["ideal", "katana_sim", "kuka_sim", "so101_sim"]
 
 
 def aside(body: str, *words: str):

@@ -17,7 +17,12 @@ ROUNDING = 1e-9
 # senses itself late, may be told to stop at once.
 EARLIER, AT_ONCE = 1.001, 4.0
 # Steps in the normal suite and in the slow one: more than a million in all.
-STEPS = {"ideal": (2000, 1_000_000), "katana_sim": (500, 100_000), "kuka_sim": (300, 50_000)}
+STEPS = {
+    "ideal": (2000, 1_000_000),
+    "katana_sim": (500, 100_000),
+    "kuka_sim": (300, 50_000),
+    "so101_sim": (500, 100_000),
+}
 # In an engine the arm is a little elsewhere than its commands should have led it [rad].
 IN_AN_ENGINE, ELSEWHERE = 1.1, 0.005
 

@@ -10,9 +10,9 @@ from imitation.robot import Command
 
 # How far the arm may lag behind its commands [rad], be faster than them [share], and brake harder
 # than it should before a joint limit that came earlier than it should [share].
-LAG = {"ideal": 1e-12, "katana_sim": 0.004, "kuka_sim": 0.001}
-FASTER = {"ideal": 1e-9, "katana_sim": 0.02, "kuka_sim": 0.02}
-EARLIER = {"ideal": 1e-9, "katana_sim": 0.001, "kuka_sim": 0.001}
+LAG = {"ideal": 1e-12, "katana_sim": 0.004, "kuka_sim": 0.001, "so101_sim": 0.001}
+FASTER = {"ideal": 1e-9, "katana_sim": 0.02, "kuka_sim": 0.02, "so101_sim": 0.02}
+EARLIER = {"ideal": 1e-9, "katana_sim": 0.001, "kuka_sim": 0.001, "so101_sim": 0.001}
 BODIES = list(LAG)
 NOTHING_TO_LOSE = (np.nan, np.inf, -np.inf, 1e308, -1e308, 50.0, -50.0, 0.0)  # [rad/s]
 
@@ -202,7 +202,7 @@ def test_closing_twice_is_harmless(body):
     robot.close()
 
 
-@pytest.mark.parametrize("simulated", ["katana_sim", "kuka_sim"])
+@pytest.mark.parametrize("simulated", ["katana_sim", "kuka_sim", "so101_sim"])
 @pytest.mark.parametrize(("period", "instead"), [(0.033, "0.032"), (0.001, "0.004")])
 def test_a_period_that_is_no_whole_number_of_physics_steps_is_refused(simulated, period, instead):
     parts = bench("learn-map", f"robot={simulated}", f"period={period}")

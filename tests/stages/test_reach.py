@@ -4,7 +4,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from on_bench import bench
+from on_bench import bench, lesson
 
 from cli.stages import reaching
 from imitation.stages.reach import Trial
@@ -60,6 +60,15 @@ def test_the_corrected_aim_holds_a_target_in_the_engine(ideal_lesson):
     samples = list(reaching(parts, ideal_lesson.learner.learned, trials))
     assert told(samples).count("held") == 3
     parts.robot.close()
+
+
+def test_a_small_arm_of_five_servos_holds_targets_with_the_map_it_learned():
+    learnt = lesson("robot=so101_sim")
+    parts = bench("reach", "robot=so101_sim")
+    samples = list(reaching(parts, learnt.learner.learned, random_trials(learnt, 3)))
+    assert told(samples).count("held") == 3
+    for robot in (parts.robot, learnt.bench.robot):
+        robot.close()
 
 
 def test_every_trial_tells_its_episode_then_reached_then_settled_then_held(ideal_lesson, learned):
