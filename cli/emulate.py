@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from cli.errors import DONE, UserError, no_such
+from imitation.robots import servo_bus_emulator as servo_bus
 from imitation.robots import ssc32_emulator as ssc32
 from imitation.robots.faults import Faults, read_fault
 from imitation.robots.katana.emulated_arm import EmulatedArm
@@ -12,7 +13,7 @@ from imitation.robots.katana.emulator import FAULTS, KatanaEmulator
 from imitation.robots.katana.models import MODELS
 from imitation.robots.serving import Device, Server
 
-DEVICES = ("katana", "ssc32")
+DEVICES = {"katana": FAULTS, "ssc32": ssc32.FAULTS, "servo-bus": servo_bus.FAULTS}
 
 
 @dataclass(frozen=True)
@@ -42,13 +43,14 @@ def emulate(device: str, asked: Asked) -> int:
 
 def _device(name: str, asked: Asked) -> Device:
     if name not in DEVICES:
-        raise UserError(no_such("device", name, DEVICES))
+        raise UserError(no_such("device", name, list(DEVICES)))
     if not asked.speed > 0:
         raise UserError(f"--speed is a factor above 0, not {asked.speed:g}")
     if asked.model not in MODELS:
         raise UserError(no_such("model", asked.model, list(MODELS)))
-    known = FAULTS if name == "katana" else ssc32.FAULTS
-    faults = Faults([read_fault(one, known) for one in asked.faults])
+    faults = Faults([read_fault(one, DEVICES[name]) for one in asked.faults])
     if name == "ssc32":
         return ssc32.Ssc32Emulator(faults, asked.speed)
+    if name == "servo-bus":
+        return servo_bus.ServoBusEmulator(faults=faults, speed=asked.speed)
     return KatanaEmulator(EmulatedArm(MODELS[asked.model]), faults, asked.speed)

@@ -126,7 +126,7 @@ def view(
 
 @app.command()
 def emulate(
-    device: Annotated[str, typer.Argument(help="katana | ssc32")],
+    device: Annotated[str, typer.Argument(help="katana | ssc32 | servo-bus")],
     model: Annotated[str, typer.Option(help="Of the Katana: 300, 400 or 450.")] = "400",
     port: Annotated[int | None, typer.Option(help="TCP port on 127.0.0.1; 0: a free one.")] = None,
     pty: Annotated[Path | None, typer.Option(help="Serial port to make.")] = None,

@@ -24,6 +24,7 @@ AT_HOME = {
     "rerun": "imitation.recording.rerun_view",
     "matplotlib": "imitation.analysis.",
     "serial": "imitation.robots.serial_line",
+    "rustypot": "imitation.robots.servo_bus",
 }
 # What each layer of our own may import; a layer may always import itself.
 CORE = {"core"}

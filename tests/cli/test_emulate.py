@@ -41,6 +41,16 @@ def test_an_ssc32_answers_on_a_serial_port_that_goes_with_it(tmp_path):
     assert not list(tmp_path.iterdir())
 
 
+def test_the_servos_of_a_bus_answer_on_a_serial_port(tmp_path):
+    process = started("servo-bus", "--pty", str(tmp_path / "bus"))
+    assert str(tmp_path / "bus") in process.stdout.readline()
+    line = SerialLine(str(tmp_path / "bus"), 1_000_000, 1.0)
+    line.send(bytes.fromhex("ffff010201fb"))  # ping servo 1
+    assert line.receive(6, 2.0) == bytes.fromhex("ffff010200fc")
+    line.close()
+    assert ended(process) == 130
+
+
 @pytest.mark.parametrize(
     ("words", "told"),
     [

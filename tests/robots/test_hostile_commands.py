@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from katana_wired import Wire, wired
 from on_bench import bench
+from servo_wired import wired as wired_servos
 
 from cli.build import Bench
 from imitation.arrays import Array
@@ -165,3 +166,10 @@ def test_nothing_beyond_a_limit_reaches_the_motors_of_a_katana(model, tmp_path):
         assert (wire.fastest[:5] <= np.ceil(np.abs(arm.body.speed * share)) + 1).all()
         robot.close()
         assert arm.katana.connection.repeats == 0
+
+
+def test_nothing_beyond_a_limit_reaches_the_servos_of_a_bus(tmp_path):
+    with wired_servos(tmp_path) as arm:
+        robot, witness = troubled(bench("learn-map", "robot=so101"), Witness(arm))
+        ride(robot, witness, 300, seed=9, earlier=AT_ONCE)
+        robot.close()
