@@ -20,7 +20,7 @@ from imitation.visuo_motor_map import Attractors, VisuoMotorMap
 class Phase(Enum):
     """What the arm is about."""
 
-    RESTING = "rests"
+    RESTING = "rests after"
     APPROACHING = "approaches"  # the state, by a detour
     REACHING = "reaches for"  # the state itself
     LEAVING = "leaves"  # the last one
@@ -124,9 +124,9 @@ class Enactor:
         area = field.area_of(self._target) if self.phase is Phase.REACHING else None
         return np.zeros(field.shape, dtype=bool) if area is None else field.around(area)
 
-    def rests(self, percept: Percept) -> bool:
-        """Whether the arm is back at rest, and is seen to be."""
-        still = (percept.time_ns - self._moved_ns) / SECOND > self.arriving.still
+    def rests(self, looked_ns: int) -> bool:
+        """Whether the arm is back at rest, and was so when it was last looked at [ns]."""
+        still = (looked_ns - self._moved_ns) / SECOND > self.arriving.still
         return self.phase is Phase.RESTING and still
 
     def decide(self, seen: Observation, percept: Percept, dynamics: Dynamics) -> Decision:

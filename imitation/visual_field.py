@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from imitation.arrays import Array, Mask
 
 Area = tuple[int, int]  # row, column
+INSIDE = 0.01  # so far from its right and lower border a place is in an area for certain [px]
 
 
 @dataclass(frozen=True)
@@ -81,6 +82,12 @@ class VisualField:
             return None
         row, column = np.unravel_index(activity.argmax(), self.shape)
         return int(row), int(column)
+
+    def into(self, place: Array, area: Area) -> Array:
+        """The place in `area` that is nearest to `place`, (2,) [px]."""
+        (x_edges, y_edges), (row, column) = self.edges, area
+        low, high = (x_edges[column], y_edges[row]), (x_edges[column + 1], y_edges[row + 1])
+        return np.clip(place, low, np.subtract(high, INSIDE))
 
     def within(self, place: Array, radius: float) -> Array:
         """Selection V: 1 for every area whose centre is nearer than `radius` [px] to `place`."""

@@ -86,7 +86,10 @@ def outcome(metrics: dict[str, Any], states: int) -> Outcome:
 
 def _complaint(metrics: dict[str, Any]) -> str | None:
     if metrics["triggered_at_s"] is None:
-        return "nothing triggered the action: no hand came to one of its states and stayed there"
+        return (
+            "nothing triggered the action: no hand came to a state that another follows, and "
+            "stayed there; one that was there from the start is passed over"
+        )
     if not metrics["order_correct"]:
         done, asked = metrics["states_replayed"], metrics["states_asked"]
         return f"the hand did not go through the action's states in order ({done} of {asked} came)"

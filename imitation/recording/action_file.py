@@ -6,7 +6,8 @@ may be left out, and must agree where they stand.
 
 import json
 import re
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -29,6 +30,12 @@ class Action:
 
     field: VisualField
     states: tuple[VisualState, ...]  # two or more
+
+    @classmethod
+    def watched(cls, field: VisualField, states: Sequence[VisualState]) -> "Action":
+        """An action as it was watched; a hand may rest on a border, its place lies in its area."""
+        inside = (replace(one, place=field.into(one.place, one.area)) for one in states)
+        return cls(field, tuple(inside))
 
 
 def save_action(path: Path, action: Action, made_by: str) -> None:
@@ -97,8 +104,10 @@ def _action(root: Node, shortest: float, longest: float) -> Action:
     if len(nodes) < 2:
         raise told["states"].wrong("an action has 2 states or more")
     clock = _Clock(shortest, longest)
+    areas = [_area(node, field) for node in nodes]
     states = tuple(
-        VisualState(_area(node, field), _seen(node, field), clock.time_of(node)) for node in nodes
+        VisualState(area, _seen(node, field, area), clock.time_of(node))
+        for area, node in zip(areas, nodes, strict=True)
     )
     return Action(field, states)
 
@@ -138,9 +147,18 @@ def _area(node: Node, field: VisualField) -> Area:
     return row, column
 
 
-def _seen(node: Node, field: VisualField) -> np.ndarray:
-    pair = _state(node)["seen_px"].items(2)
-    return np.array([one.number(0, side) for one, side in zip(pair, field.size, strict=True)])
+def _seen(node: Node, field: VisualField, area: Area) -> np.ndarray:
+    told = _state(node)["seen_px"]
+    pair = told.items(2)
+    place = np.array([one.number(0, side) for one, side in zip(pair, field.size, strict=True)])
+    if np.abs(field.into(place, area) - place).max() > ROUNDING_PX:
+        x_edges, y_edges = field.edges
+        (left, right), (top, bottom) = x_edges[area[1] :][:2], y_edges[area[0] :][:2]
+        raise told.wrong(
+            f"area {list(area)} is x {left:g} to {right:g}, y {top:g} to {bottom:g} px; "
+            "make seen_px and area agree"
+        )
+    return place
 
 
 class _Clock:

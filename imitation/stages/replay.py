@@ -51,9 +51,12 @@ def replay(
         command = Command(decision.velocity, enactor.act(seen))
         enactor.go_on()
         events += _told(before, enactor, recall)
-        if recall.over and enactor.rests(percept):
+        # A film that is over shows nothing more.
+        if recall.over and enactor.rests(seen.time_ns if seen.ended else percept.time_ns):
             recall.end()
             until = seen.time + ending.after
+        elif seen.ended and recall.state is None and recall.coming is None:
+            until = min(until, seen.time)
         sensed, applied = robot.step(command)
         try:
             yield Sample(seen, percept, decision, command, applied, tuple(events))
@@ -71,7 +74,7 @@ def _told(before: tuple[Phase, Hand], enactor: Enactor, recall: Recall) -> Itera
     if phase is before[0] or recall.state is None:
         return
     facts: dict[str, object] = {"state": recall.state, "phase": phase.value}
-    yield Event("arm", f"the arm {phase.value}, {recall.called}", facts)
+    yield Event("arm", f"the arm {phase.value} {recall.called}", facts)
     if phase is Phase.LEAVING:
         yield Event("ended", "the action is over", {"state": recall.state})
 

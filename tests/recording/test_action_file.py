@@ -30,6 +30,7 @@ EDITED = [
     (15, '"seen_px": [22.5, 130],', r"seen_px\[1\] is 130; wanted a number from 0 to 120"),
     (15, '"seen_px": [NaN, 44],', r"seen_px\[0\] is NaN; wanted a number"),
     (15, '"seen_px": [1e999, 44],', r"seen_px\[0\] is Infinity"),
+    (15, '"seen_px": [150, 44],', r"seen_px is .*area \[1, 0\] is x 0 to 40.*agree"),
     (15, '"seen_px": null,', "seen_px is null; wanted a list"),
     (15, '"seen_pxl": [22.5, 44],', "unknown key seen_pxl; the keys are area, seen_px"),
     (17, '"delay_s": 3.0', "delay_s is 3.0; nothing comes before the first state"),
