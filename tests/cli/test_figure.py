@@ -20,6 +20,7 @@ def test_results_come_in_the_order_of_the_seeds(workers, capsys):
     assert "fig0 · 3 of 3 seeds" in capsys.readouterr().err
 
 
+@pytest.mark.slow
 def test_fig2_is_what_ran_on_the_ideal_arm_too(imitate):
     result = imitate("figure", "fig2", "seeds=1", f"figure.fig2.{IDEAL}")
     assert result.exit_code == 0, result.output

@@ -37,6 +37,7 @@ def imitate(folder: Path, *words: str) -> subprocess.CompletedProcess:
     return subprocess.run(call, cwd=folder, capture_output=True, text=True, timeout=100)
 
 
+@pytest.mark.slow
 def test_the_arm_of_the_page_learns_a_map(installed):
     run = imitate(installed, "learn-map", "robot=my_arm", "out=run")
     assert run.returncode == 0, run.stderr

@@ -53,7 +53,9 @@ def test_9_areas_are_learned_likewise():
     assert all(inside(learnt))
 
 
-@pytest.mark.parametrize("body", ["katana_sim", "kuka_sim", "so101_sim"])
+@pytest.mark.parametrize(
+    "body", ["katana_sim", "kuka_sim", pytest.param("so101_sim", marks=pytest.mark.slow)]
+)
 def test_arms_in_the_engine_learn_all_areas_too(body):
     learnt = lesson(f"robot={body}")
     assert len(learnt.learner.shown) == 16
