@@ -80,7 +80,7 @@ def check_a_kill(imitate, learned, run, stage, after):
     check_recovered(imitate, run)
 
 
-@pytest.mark.parametrize("stage", ["learn-map", "mimic"])
+@pytest.mark.parametrize("stage", ["mimic"])
 def test_a_killed_run_is_recovered(imitate, learned, tmp_path, stage):
     check_a_kill(imitate, learned, tmp_path / "run", stage, after=0.3)
 
@@ -180,6 +180,7 @@ def test_a_full_disk_ends_the_run(tmp_path):
         check_a_full_disk(result, disk / "run")
 
 
+@pytest.mark.slow
 def test_a_full_quota_ends_the_run(imitate, tmp_path):
     program = f"{sys.executable} -c '{TELLING}' learn-map robot=ideal out={tmp_path / 'run'}"
     call = ["bash", "-c", f"ulimit -f 100; exec {program}"]

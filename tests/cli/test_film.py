@@ -57,6 +57,7 @@ def test_the_same_film_gives_the_same_bytes_wherever_it_lies(run, imitate):
     assert (again / "run.mcap").read_bytes() == (run / "run.mcap").read_bytes()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("vision", ["red_tag", "movement"])
 def test_what_was_decided_on_a_film_is_decided_so_anew(imitate, vision):
     run = watched(imitate, "run", film(imitate.folder / "film.mp4", 60, 60), f"vision={vision}")

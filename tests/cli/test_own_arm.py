@@ -44,6 +44,7 @@ def test_the_arm_of_the_page_learns_a_map(installed):
     assert json.loads((installed / "run" / "metrics.json").read_text())["areas_learned"] == 16
 
 
+@pytest.mark.slow
 def test_doctor_looks_at_it_too(installed):
     run = imitate(installed, "doctor", "robot=my_arm", "--json")
     assert run.returncode == 0, run.stdout
