@@ -26,8 +26,8 @@ REACHES = {
     "nearest": ["trials=6", "reach.limit=5"],
 }
 MIMICRIES = {  # selection of mimic: what is asked of its RMSE after the lag
-    "winner": "2 px over the best that the areas allow",
-    "soft": "half of the winner's, 6 px",
+    "winner": "2 px over the best that the areas allow ({floor:.1f} px); 0.3 s",
+    "soft": "half of the winner's, 6 px; 0.3 s",
 }
 REPLAYS = {  # replay.precision: what is asked
     "seen": "in order, grasped, within 4 cm",
@@ -132,7 +132,7 @@ def imitated(name: str) -> Iterator[tuple[str, str, str]]:
         told = read(mimicked_in(name, selection) / "metrics.json")
         if told:
             measured = f"{told['path_rmse_px']:.1f} px, {told['lag_s']:.2f} s late"
-            wanted = f"{asked} ({told['floor_rmse_px']:.1f} px); 0.3 s"
+            wanted = asked.format(floor=told["floor_rmse_px"])
             yield f"circle mimicked, {selection}", measured, wanted
     for precision, asked in REPLAYS.items():
         told = read(replayed_in(name, precision) / "metrics.json")
