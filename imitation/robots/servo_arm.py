@@ -11,6 +11,7 @@ from imitation.arrays import Array
 from imitation.device import DeviceError
 from imitation.robot import Body, JointReading
 from imitation.robots.bodies import body_of
+from imitation.robots.keeping_up import KeepingUp
 from imitation.robots.servo_bus import ServoBus
 
 Numbers = Sequence[float]
@@ -60,7 +61,8 @@ class ServoArm:
         )
         self._ready, self._looks = False, 0
         self._sent = self._sensed = self._posture()
-        self._read_at = self._kept_up_at = clock()
+        self._read_at = clock()
+        self._keeping_up = KeepingUp(body.joint_names, driving.following, driving.overdue)
 
     def reset(self, posture: Array) -> None:
         """Be ready to move, at rest where the arm is; `Robot` leads it to `posture`."""
@@ -86,7 +88,8 @@ class ServoArm:
         self._looks += 1
         if self._looks % 2:
             self.bus.refuse_troubled()
-        self._refuse_staying_behind(now)
+        if self._ready:
+            self._keeping_up.check(np.abs(self._sensed - self._sent), now)
         elapsed, self._read_at = max(now - self._read_at, 1e-3), now
         return JointReading(self._sensed, (self._sensed - before) / elapsed)
 
@@ -121,17 +124,6 @@ class ServoArm:
 
     def _posture(self) -> Array:
         return np.asarray(self._senses * self.bus.angles())
-
-    def _refuse_staying_behind(self, now: float) -> None:
-        away = np.abs(self._sensed - self._sent)
-        if not self._ready or (away <= self._driving.following).all():
-            self._kept_up_at = now
-        elif now - self._kept_up_at > self._driving.overdue:
-            joint = int(np.argmax(away))
-            raise DeviceError(
-                f"{self.body.joint_names[joint]} is {away[joint]:.2f} rad from where it was sent: "
-                "it does not move; see whether something holds it"
-            )
 
 
 def servo_arm(

@@ -13,6 +13,7 @@ from imitation.robots.katana.driver import Katana, refuse_crashed
 from imitation.robots.katana.frames import BadReplyError
 from imitation.robots.katana.sensors import GripperSensing
 from imitation.robots.katana.start import FASTEST, Settings, make_ready
+from imitation.robots.keeping_up import KeepingUp
 
 
 class KatanaArm:
@@ -45,7 +46,9 @@ class KatanaArm:
         self._lower, self._upper = katana.model.limits
         self._ready = False
         self._sent = self._sensed = katana.positions().astype(float)  # [encoders]
-        self._read_at = self._kept_up_at = clock()
+        self._read_at = clock()
+        motors = [f"motor {number}" for number in range(1, 6)]
+        self._keeping_up = KeepingUp(motors, settings.following, settings.overdue)
         self._grip: float | None = None
         self._lost = self._looks = 0
         self._ahead = np.round(self._sent)  # where the motors of a 300 were sent last
@@ -82,7 +85,9 @@ class KatanaArm:
         now, before = self._clock(), self._sensed
         self._sensed = self.katana.positions().astype(float)
         self._look_at_the_rest()
-        self._refuse_staying_behind(now)
+        if self._ready:
+            away = (self._sensed - self._sent)[:5] / self.katana.model.per_radian
+            self._keeping_up.check(np.abs(away), now)
         elapsed, self._read_at = max(now - self._read_at, TICK), now
         model = self.katana.model
         proximity, touching = self._nearby
@@ -174,14 +179,3 @@ class KatanaArm:
             self._nearby = (self._sensing.proximity(sensors), self._sensing.touching(sensors))
         else:
             refuse_crashed(self.katana.statuses())
-
-    def _refuse_staying_behind(self, now: float) -> None:
-        away = np.abs((self._sensed - self._sent)[:5] / self.katana.model.per_radian)
-        if not self._ready or (away <= self._settings.following).all():
-            self._kept_up_at = now
-        elif now - self._kept_up_at > self._settings.overdue:
-            motor = int(np.argmax(away)) + 1
-            raise DeviceError(
-                f"motor {motor} is {away[motor - 1]:.2f} rad from where it was sent: it does not "
-                "move; see whether something holds it, and whether it is hot"
-            )
