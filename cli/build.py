@@ -169,8 +169,7 @@ class Bench:
         An arm without an engine has none: things are there for it, or they are not.
         """
         node, robot = self.cfg.get("object"), self.cfg["robot"]
-        in_engine = "thing" in signature(get_method(robot["arm"]["_target_"])).parameters
-        if node is None or not in_engine:
+        if node is None or "thing" not in asked_by(robot["arm"]):
             return None
         rng = generator(self.cfg["seed"], "object")
         return can_on_table(node, robot, self.learning_space, self.cfg["camera"]["eye"], rng)

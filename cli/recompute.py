@@ -24,7 +24,7 @@ from cli.replaying import replaying
 from cli.usual import filled
 from cli.what_if import replaced
 from imitation.recording.action_file import load_action
-from imitation.recording.map_file import load_map
+from imitation.recording.map_file import LearnedMap, load_map
 from imitation.recording.mcap_recording import Recording
 from imitation.recording.recorded_steps import StepTold, steps_told
 from imitation.robots.recorded import Unrecorded
@@ -90,24 +90,28 @@ def anew(recording: Recording, words: Sequence[str] = ()) -> Iterator[Anew]:
         yield Anew(bench, field, told, samples)
 
 
+def _stored(bench: Bench) -> LearnedMap:
+    return load_map(Path(bench.cfg["map"]))
+
+
 def _learning(bench: Bench) -> Staged:
     _, samples = stages.learning(bench)
     return bench.field, samples
 
 
 def _reaching(bench: Bench) -> Staged:
-    stored = load_map(Path(bench.cfg["map"]))
+    stored = _stored(bench)
     return stored.map.field, stages.reaching(bench, stored.map, trials_of(bench, stored))
 
 
 def _checking(bench: Bench) -> Staged:
-    learned = load_map(Path(bench.cfg["map"])).map
+    learned = _stored(bench).map
     _, samples = stages.checking(bench, learned)
     return learned.field, samples
 
 
 def _mimicking(bench: Bench) -> Staged:
-    learned = load_map(Path(bench.cfg["map"])).map
+    learned = _stored(bench).map
     stage = stages.drawing if bench.cfg["mirror"] else stages.mimicking
     return learned.field, stage(bench, learned)
 
@@ -118,7 +122,7 @@ def _watching(bench: Bench) -> Staged:
 
 
 def _replaying(bench: Bench) -> Staged:
-    learned, cells = load_map(Path(bench.cfg["map"])).map, bench.cfg["sequence"]["cells"]
+    learned, cells = _stored(bench).map, bench.cfg["sequence"]["cells"]
     action = load_action(Path(bench.cfg["action"]), cells["shortest"], cells["longest"])
     _, samples = replaying(bench, learned, action)
     return learned.field, samples

@@ -55,7 +55,7 @@ def replay(
         if recall.over and enactor.rests(seen.time_ns if seen.ended else percept.time_ns):
             recall.end()
             until = seen.time + ending.after
-        elif seen.ended and recall.state is None and recall.coming is None:
+        elif seen.ended and recall.state is None:
             until = min(until, seen.time)
         sensed, applied = robot.step(command)
         try:
