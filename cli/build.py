@@ -1,11 +1,11 @@
 """Makes robots, perception and maps out of a composed configuration."""
 
 import zlib
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from inspect import signature
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 from hydra.utils import get_method
@@ -18,7 +18,7 @@ from imitation.gaze import VisualSpace
 from imitation.guard import Guard
 from imitation.perception import Perception
 from imitation.robot import SECOND, Arm, Body, Camera, Robot
-from imitation.robots.bodies import guard_of
+from imitation.robots.bodies import body_of, guard_of
 from imitation.robots.bullet.world_can import Can
 from imitation.robots.demonstrators import HandOverTable
 from imitation.robots.dry_run import DryRun
@@ -31,8 +31,7 @@ from imitation.visual_field import VisualField
 from imitation.visuo_motor_map import Learning, VisuoMotorMap
 
 Config = Mapping[str, Any]
-BODY = "imitation.robots.bodies.body_of"  # joints and limits of an arm, without the arm
-
+Made = TypeVar("Made")
 DEMONSTRATOR = ("name", "hand", "hands", "height", "raise")  # what no gesture asks for
 
 
@@ -57,6 +56,12 @@ def make_offered(node: Config, offered: Config) -> Any:
     """What `make` builds, given those of the `offered` values that it asks for."""
     asked = asked_by(node)
     return make(node, **{name: value for name, value in offered.items() if name in asked})
+
+
+def made_of(kind: Callable[..., Made], offered: Config) -> Made:
+    """What `kind` makes of those of the `offered` values that it asks for."""
+    asked = signature(kind).parameters
+    return kind(**{name: value for name, value in offered.items() if name in asked})
 
 
 def asked_by(node: Config) -> Collection[str]:
@@ -152,7 +157,7 @@ class Bench:
 
     def relive(self, steps: Iterator[RecordedStep]) -> None:
         """Have a robot from now on that senses what a recording tells, step by step."""
-        body = make_offered({"_target_": BODY}, self.cfg["robot"]["arm"])
+        body = made_of(body_of, self.cfg["robot"]["arm"])
         home = self.guided.mean(axis=0)
         self.robot = RecordedRobot(body, self.guard(body), home, self.period_ns, steps)
 

@@ -4,11 +4,10 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import closing
 from copy import copy
 from dataclasses import dataclass, replace
-from inspect import signature
 
 import numpy as np
 
-from cli.build import Bench, Config, generator
+from cli.build import Bench, Config, generator, made_of
 from cli.stages import drawing, mimicking, mirror_of
 from imitation.analysis.mimic_metrics import Judging, MimicMetrics
 from imitation.analysis.mirror import Aside, aside
@@ -26,9 +25,7 @@ Stage = Callable[[Bench, VisuoMotorMap], Iterator[Sample]]
 def judged(bench: Bench, learned: VisuoMotorMap) -> MimicMetrics:
     """What will measure a mimic run of this bench."""
     shown, soft = bench.demonstrator, bench.cfg["selection"]["name"] == "soft"
-    asked, settings = signature(Judging).parameters, bench.cfg["mimic"]
-    judging = Judging(**{name: settings[name] for name in asked})
-    place = shown.place if shown else None
+    judging, place = made_of(Judging, bench.cfg["mimic"]), shown.place if shown else None
     return MimicMetrics(learned, place, soft, bench.robot.period, judging)
 
 

@@ -1,12 +1,10 @@
 """The stage of `imitate replay` made from the parts of a bench."""
 
-from collections.abc import Callable, Iterator
-from functools import partial
-from inspect import signature
+from collections.abc import Iterator, Mapping
 
 import numpy as np
 
-from cli.build import Bench, generator
+from cli.build import Bench, generator, made_of
 from imitation.arrivals import Arrivals
 from imitation.enacting import Arriving, Detours, Enactor
 from imitation.grasp import GraspReflex
@@ -19,8 +17,7 @@ from imitation.stages.exploring import Wandering, explore
 from imitation.stages.replay import Ending, replay
 from imitation.visuo_motor_map import VisuoMotorMap
 
-REFLEX = ("close_within", "firm", "closing", "opening")  # of robot.grasp
-AIM = ("bandwidth", "ridge", "settling", "noise", "largest")  # of controller=corrected_aim
+PRECISIONS: Mapping[str, type[Precision]] = {"area": ToTheArea, "seen": ToTheSeenPlace}
 
 
 def replaying(
@@ -36,21 +33,17 @@ def replaying(
     rng = generator(cfg["seed"], "sequence")
     recall = Recall(places, loop, arrivals, field, cfg["sequence"]["noise"], rng)
     perception, enactor = bench.perception(field), enacting(bench, learned)
-    ending = Ending(**{name: cfg["replay"][name] for name in signature(Ending).parameters})
+    ending = made_of(Ending, cfg["replay"])
     return recall, replay(robot, perception, recall, enactor, bench.dynamics, ending)
 
 
 def enacting(bench: Bench, learned: VisuoMotorMap) -> Enactor:
     """What the arm makes of states."""
     cfg, robot = bench.cfg, bench.robot
-    aim = {name: cfg["aim"][name] for name in AIM}
-    precisions: dict[str, Callable[[], Precision]] = {
-        "area": ToTheArea,
-        "seen": partial(ToTheSeenPlace, **aim, period=robot.period),
-    }
+    precision = PRECISIONS[cfg["replay"]["precision"]]
     return Enactor(
         learned=learned,
-        precision=precisions[cfg["replay"]["precision"]](),
+        precision=made_of(precision, {**cfg["aim"], "period": robot.period}),
         reflex=reflex_of(bench),
         detours=detours_of(bench),
         arriving=Arriving(**cfg["arriving"]),
@@ -62,16 +55,16 @@ def enacting(bench: Bench, learned: VisuoMotorMap) -> Enactor:
 
 def reflex_of(bench: Bench) -> GraspReflex:
     """The reflex of the body's hand; without a gripper nothing is ever within its grasp."""
-    settings = bench.cfg["robot"]["grasp"] or dict.fromkeys(REFLEX, 0.0)
-    close_within, firm, closing, opening = (settings[name] for name in REFLEX)
-    return GraspReflex(close_within, firm, closing, opening)
+    settings = bench.cfg["robot"]["grasp"]
+    return made_of(GraspReflex, settings) if settings else GraspReflex(0.0, 0.0, 0.0, 0.0)
 
 
 def detours_of(bench: Bench) -> Detours:
     """The detours of the body's arm; none without a gripper."""
-    settings, asked = bench.cfg["robot"]["grasp"], signature(Detours).parameters
-    nowhere = np.zeros_like(bench.rest)
-    return Detours(**{name: np.array(settings[name]) if settings else nowhere for name in asked})
+    settings, nowhere = bench.cfg["robot"]["grasp"], np.zeros_like(bench.rest)
+    if settings is None:
+        return Detours(nowhere, nowhere, nowhere, nowhere)
+    return made_of(Detours, {name: np.array(value) for name, value in settings.items()})
 
 
 def exploring(bench: Bench, learned: VisuoMotorMap, lasting: float) -> Iterator[Sample]:

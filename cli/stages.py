@@ -1,11 +1,10 @@
 """Stages made from the parts of a bench: their steps, to be recorded, watched or only counted."""
 
 from collections.abc import Iterator, Sequence
-from inspect import signature
 
 import numpy as np
 
-from cli.build import Bench, generator
+from cli.build import Bench, generator, made_of
 from imitation.controllers.corrected_aim import CorrectedAim
 from imitation.robots.gestures import Mirrored
 from imitation.sample import Sample
@@ -40,9 +39,7 @@ def reaching(bench: Bench, learned: VisuoMotorMap, trials: Sequence[Trial]) -> I
 
 def rules(bench: Bench) -> Reaching:
     """When the trials of a reach run succeed and end."""
-    settings = bench.cfg["reach"]
-    asked = [name for name in signature(Reaching).parameters if name in settings]
-    return Reaching(**{name: settings[name] for name in asked})
+    return made_of(Reaching, bench.cfg["reach"])
 
 
 def watching(bench: Bench) -> tuple[VisualStates, Iterator[Sample]]:
@@ -59,7 +56,7 @@ def checking(bench: Bench, learned: VisuoMotorMap) -> tuple[list[Visit], Iterato
     cfg, (postures, places) = bench.cfg["check"], learned.memories()
     drawn = generator(bench.cfg["seed"], "check").permutation(len(postures))[: cfg["postures"]]
     visits = [Visit(postures[one], places[one]) for one in sorted(drawn)]
-    visiting = Visiting(**{name: cfg[name] for name in signature(Visiting).parameters})
+    visiting = made_of(Visiting, cfg)
     perception = bench.perception(learned.field)
     return visits, check_map(bench.robot, perception, bench.dynamics, visits, visiting)
 
