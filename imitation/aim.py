@@ -5,7 +5,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from imitation.arrays import Array
-from imitation.regression import locally_linear
 from imitation.visuo_motor_map import VisuoMotorMap
 
 
@@ -35,21 +34,16 @@ class Aim:
 
     def begin(self, learned: VisuoMotorMap, target: Array) -> None:
         """Aim at `target` (2,) [px], by the map alone."""
-        side = learned.field.side
-        postures, places = learned.memories()
-        self._posture, self._slope = locally_linear(
-            places, postures, target, self.bandwidth * side, self.ridge * side**2
-        )
-        self._reading = np.linalg.pinv(self._slope)  # (n_joints, 2): from postures to places
-        self.selection = learned.field.within(target, self.bandwidth * side)  # V
-        self._target = self._expected = target
+        self.move(learned, target)
+        self._expected = target
         self._error: Array | None = None
 
     def move(self, learned: VisuoMotorMap, target: Array) -> None:
         """Aim at `target` (2,) [px], which has moved: what is known of the error stays."""
-        error, expected = self._error, self._expected
-        Aim.begin(self, learned, target)
-        self._error, self._expected = error, expected
+        self._posture, self._slope = learned.read(target, self.bandwidth, self.ridge)
+        self._reading = np.linalg.pinv(self._slope)  # (n_joints, 2): from postures to places
+        self.selection = learned.field.within(target, self.bandwidth * learned.field.side)  # V
+        self._target = target
 
     def correct(self, posture: Array, hand: Array) -> None:
         """Take in that `posture` (n_joints,) [rad] showed the hand at `hand` (2,) [px]."""

@@ -8,7 +8,6 @@ import numpy as np
 from imitation.arrays import Array
 from imitation.deciding import one_attractor
 from imitation.perception import Percept
-from imitation.regression import locally_linear
 from imitation.visual_field import winner_take_all
 from imitation.visuo_motor_map import Attractors, VisuoMotorMap
 
@@ -59,11 +58,7 @@ class Soft:
         hand = percept.hand
         if hand is None or not (learned.learned & (selection > 0)).any():
             return Selected(selection, learned.attractors(selection, posture))
-        postures, places = learned.memories()
-        side = learned.field.side
-        read, _ = locally_linear(
-            places, postures, hand, self.bandwidth * side, self.ridge * side**2
-        )
+        read, _ = learned.read(hand, self.bandwidth, self.ridge)
         return Selected(
             self._weights(learned, hand),
             one_attractor(np.clip(read, learned.lower, learned.upper)),

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from imitation.arrays import Array, Index, Mask
+from imitation.regression import locally_linear
 from imitation.visual_field import Area, VisualField
 
 
@@ -133,6 +134,21 @@ class VisuoMotorMap:
     def memories(self) -> tuple[Array, Array]:
         """All learned postures (n, n_joints) [rad] and where each was seen (n, 2) [px]."""
         return self.postures[self.holds], self.places[self.holds]
+
+    def read(self, place: Array, bandwidth: float, ridge: float) -> tuple[Array, Array]:
+        """Reads the map between its places: posture is taken as linear in the place around it.
+
+        Args:
+            place: Where the hand is to be seen, (2,) [px].
+            bandwidth: Of the regression from learned places to postures [area sides].
+            ridge: Of the same [area sides squared].
+
+        Returns:
+            The posture (n_joints,) [rad] and its slope (2, n_joints) [rad/px].
+        """
+        postures, places = self.memories()
+        side = self.field.side
+        return locally_linear(places, postures, place, bandwidth * side, ridge * side**2)
 
     def _distance(self, area: Area | tuple[NDArray[np.integer], ...], posture: Array) -> Array:
         """Distance of a cluster's postures to `posture`, (neurons,) [-1..1]; nan while empty.
