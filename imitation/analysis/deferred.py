@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from imitation.analysis.visits import Visit
 from imitation.arrays import Array
 from imitation.robot import Truth
 from imitation.sample import Sample
@@ -16,15 +17,6 @@ PLACED = 0.04  # an object is where the demonstrator put it when it stands this 
 CARRIED_FOR = 1.0  # a thing that moves with the hand this long is grasped [s]
 CARRIED_FAR = 0.02  # it must have moved this far in that time [m]
 SLIPPED = 0.015  # and by no more than this otherwise than the hand [m]
-
-
-@dataclass(frozen=True)
-class Visit:
-    """The hand's stay in the area of a state."""
-
-    area: Area
-    begin: float  # [s]
-    end: float  # [s]
 
 
 @dataclass(frozen=True)

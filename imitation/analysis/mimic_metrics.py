@@ -7,18 +7,16 @@ from typing import Any
 import numpy as np
 
 from imitation.analysis.mimicry import (
-    Visit,
     correlation,
     dtw,
-    followed_visits,
     frechet,
     jitter,
     lag_steps,
     lag_taken_out,
     rmse,
-    visits,
 )
 from imitation.analysis.place_prediction import place_shown_at
+from imitation.analysis.visits import Visit, followed_visits, visits
 from imitation.arrays import Array
 from imitation.robot import Truth
 from imitation.sample import Sample

@@ -1,15 +1,13 @@
-"""How well one path in visual space follows another: lag, distances, correlation, visits.
+"""How well one path in visual space follows another: lag, distances, correlation.
 
 Paths are (n, 2) [px], sampled once a control period at the same times; nan where nothing was seen.
 """
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable
 
 import numpy as np
 
 from imitation.arrays import Array
-from imitation.visual_field import Area
 
 NOWHERE = float("nan")
 MANY = 2000  # warping takes time and memory with the square of what is warped
@@ -123,43 +121,3 @@ def jitter(path: Array, period: float, low: float, high: float) -> float:
     within = (frequency >= low) & (frequency <= high)
     power = 2 * np.sum(np.abs(spectrum[within]) ** 2) / (len(path) * np.sum(window**2))
     return float(np.sqrt(power))
-
-
-@dataclass(frozen=True)
-class Visit:
-    """A stay in one area, or at its learned place."""
-
-    area: Area
-    begin: float  # [s]
-    end: float  # [s]
-
-
-def visits(times: Sequence[float], areas: Sequence[Area | None], period: float) -> list[Visit]:
-    """The stays in one area after the other; a stay ends a period after its last sample [s]."""
-    found: list[Visit] = []
-    for time, area in zip(times, areas, strict=True):
-        last = found[-1] if found else None
-        if area is None:
-            continue
-        if last and last.area == area and time - last.end < period / 2:
-            found[-1] = Visit(area, last.begin, time + period)
-        else:
-            found.append(Visit(area, time, time + period))
-    return found
-
-
-def followed_visits(shown: Sequence[Visit], own: Sequence[Visit], grace: float) -> list[Visit]:
-    """Those of `shown` during which, or `grace` seconds after, an own visit to that area is made.
-
-    In order, each own visit used once.
-    """
-    followed, first = [], 0
-    for one in shown:
-        for number in range(first, len(own)):
-            visit = own[number]
-            meets = visit.begin <= one.end + grace and visit.end > one.begin
-            if visit.area == one.area and meets:
-                followed.append(one)
-                first = number + 1
-                break
-    return followed

@@ -4,13 +4,13 @@ import numpy as np
 import pytest
 
 from imitation.analysis.deferred import (
-    Visit,
     acts_done,
     all_in_order,
     carried,
     in_order,
     visits_of,
 )
+from imitation.analysis.visits import Visit
 from imitation.visual_field import VisualField
 
 FIELD = VisualField("right_4x4", (160, 120), 4, 4, 40.0)
