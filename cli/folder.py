@@ -6,6 +6,7 @@ from datetime import datetime
 from pathlib import Path
 
 from cli.errors import UserError
+from imitation.recording.free_path import next_free
 
 OURS = ("run.mcap", "config.yaml", "metrics.json", "log.txt", "sweep.json", "multirun.yaml")
 
@@ -44,14 +45,6 @@ def writable(folder: Path) -> Path:
     absolute = folder.expanduser().absolute()
     _make(absolute, exist_ok=True)
     return absolute
-
-
-def next_free(folder: Path) -> Path:
-    """`folder` with the lowest number that makes it a new one."""
-    number = 2
-    while (free := folder.with_name(f"{folder.name}-{number}")).exists():
-        number += 1
-    return free
 
 
 def _holds_a_run(folder: Path) -> bool:

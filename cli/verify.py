@@ -14,6 +14,7 @@ from cli.recompute import Anew, anew, configuration
 from cli.what_if import replaced
 from imitation.analysis.comparison import Comparison, Difference
 from imitation.analysis.seal import Break, broken, cited
+from imitation.recording.free_path import free
 from imitation.recording.mcap_recording import Recorder, Recording
 from imitation.recording.recorded_steps import StepTold
 from imitation.recording.step_messages import StepMessages
@@ -95,7 +96,7 @@ def _second(recording: Recording, decided: Anew, words: Sequence[str]) -> Record
     command, recorded = recording.metadata["run"]["command"], configuration(recording)
     text = OmegaConf.to_yaml(OmegaConf.create(dict(replaced(command, recorded, words))))
     return Recorder(
-        _free(recording.path.with_name("what-if.mcap")),
+        free(recording.path.with_name("what-if.mcap")),
         body=decided.bench.robot.body,
         field=decided.field,
         period_ns=decided.bench.period_ns,
@@ -104,14 +105,6 @@ def _second(recording: Recording, decided: Anew, words: Sequence[str]) -> Record
         max_loss=decided.bench.cfg["recording"]["max_loss"],
         reproducible=True,
     )
-
-
-def _free(path: Path) -> Path:
-    free, number = path, 1
-    while free.exists():
-        number += 1
-        free = path.with_stem(f"{path.stem}-{number}")
-    return free
 
 
 def show(title: str, told: Sequence[tuple[str, str]], found: Comparison) -> None:

@@ -13,6 +13,7 @@ from mcap.records import Attachment, Channel, Chunk, Metadata, Schema
 from mcap.writer import CompressionType
 
 from imitation.recording.digest import Digest
+from imitation.recording.free_path import free
 from imitation.recording.mcap_quick import NO_LIMIT, QuickWriter
 from imitation.recording.mcap_reading import MESSAGE_FIELDS, parts, records, unpacked
 
@@ -115,18 +116,10 @@ def recover(cut: Path) -> tuple[Recovery, Path]:
         with beside.open("wb") as stream:
             recovery = Recovery(cut, stream)
             recovery.run()
-        kept = _free(cut.with_name(f"{cut.stem}.truncated.mcap"))
+        kept = free(cut.with_name(f"{cut.stem}.truncated.mcap"))
         os.link(cut, kept)  # at every moment both are there under a name
         beside.replace(cut)
     finally:
         with suppress(FileNotFoundError):
             beside.unlink()
     return recovery, kept
-
-
-def _free(path: Path) -> Path:
-    free, number = path, 1
-    while free.exists():
-        number += 1
-        free = path.with_stem(f"{path.stem}-{number}")
-    return free

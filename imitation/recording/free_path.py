@@ -1,0 +1,17 @@
+"""Names of new files and folders: nothing is written over."""
+
+from pathlib import Path
+
+
+def free(path: Path) -> Path:
+    """`path` itself, or the next one that is new."""
+    return next_free(path) if path.exists() else path
+
+
+def next_free(path: Path) -> Path:
+    """`path` with the lowest number that makes it a new one; a file's comes before its suffix."""
+    suffix = path.suffix if path.is_file() else ""
+    name, number = path.name.removesuffix(suffix), 2
+    while (new := path.with_name(f"{name}-{number}{suffix}")).exists():
+        number += 1
+    return new
