@@ -1,7 +1,6 @@
 """imitate recover: the recording of a killed run made whole again."""
 
 import fcntl
-import json
 import os
 import shlex
 from pathlib import Path
@@ -12,7 +11,7 @@ from rich.table import Table
 from cli.errors import DONE, UserError
 from cli.inspect import results, size
 from cli.recompute import configuration
-from cli.run import plain
+from imitation.recording.json_file import write_json
 from imitation.recording.mcap_reading import is_whole
 from imitation.recording.mcap_recording import Recording, recording_in
 from imitation.recording.mcap_recover import Recovery, recover
@@ -68,8 +67,7 @@ def write_metrics(recording: Recording, recovery: Recovery) -> None:
         "steps": recovery.steps,
         "robot_time_s": round(recovery.last_ns / SECOND + period, 9) if recovery.steps else 0.0,
     }
-    text = json.dumps(plain(content), indent=2, allow_nan=False, ensure_ascii=False)
-    (folder / "metrics.json").write_text(text + "\n")
+    write_json(folder / "metrics.json", content)
 
 
 def show(console: Console, run: Path, recovery: Recovery, kept: Path) -> None:

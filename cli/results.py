@@ -1,6 +1,5 @@
 """The numbers of the README, measured over many seeds: make results."""
 
-import json
 import sys
 from collections.abc import Callable, Sequence
 from concurrent.futures import ProcessPoolExecutor
@@ -20,11 +19,11 @@ from cli.build import Bench, Config, generator
 from cli.experiments import composed
 from cli.jobs.learn_map import learned_by
 from cli.jobs.reach import reaching, trials_of
-from cli.run import plain
 from cli.stages import learning
 from imitation.analysis.metrics import learn_map_metrics
 from imitation.analysis.statistics import bootstrap, wilson
 from imitation.arrays import Array
+from imitation.recording.json_file import write_json
 from imitation.recording.map_file import LearnedMap
 from imitation.stages.trials import from_learned_postures
 
@@ -188,7 +187,7 @@ def measure(cfg: Config) -> dict[str, list[dict[str, Any]]]:
 def write(cfg: Config, found: dict[str, list[dict[str, Any]]]) -> None:
     """Write what was found so far to data/results.json."""
     RESULTS.parent.mkdir(exist_ok=True)
-    RESULTS.write_text(json.dumps(plain({"settings": cfg, **found}), indent=2) + "\n")
+    write_json(RESULTS, {"settings": cfg, **found})
 
 
 def show(rows: Sequence[dict[str, Any]], title: str) -> None:

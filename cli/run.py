@@ -1,8 +1,6 @@
 """A run: its folder, recording, log and numbers, opened and closed here and nowhere else."""
 
-import json
 import logging
-import math
 import os
 import platform
 import shlex
@@ -13,7 +11,6 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 from omegaconf import OmegaConf
 
 from cli.build import Bench, Config
@@ -24,6 +21,7 @@ from cli.provenance import run_record, sha256
 from imitation.analysis.cadence import Cadence
 from imitation.analysis.frame_count import FrameCount
 from imitation.device import DeviceError
+from imitation.recording.json_file import write_json
 from imitation.recording.mcap_recording import Recorder
 from imitation.robot import SECOND, Truth
 from imitation.robots.bullet.world import find_urdf
@@ -160,8 +158,7 @@ class Run:
             **self._frames.result(),
             **more,
         }
-        text = json.dumps(plain(content), indent=2, allow_nan=False, ensure_ascii=False)
-        (self.folder / "metrics.json").write_text(text + "\n")
+        write_json(self.folder / "metrics.json", content)
 
     def close(self) -> None:
         """Stop the arm, release the devices, end the log."""
@@ -216,19 +213,6 @@ def until_interrupted(samples: Iterator[Sample], interruption: Interruption) -> 
         with suppress(KeyboardInterrupt):
             yield samples.throw(KeyboardInterrupt())
             yield from samples
-
-
-def plain(value: Any) -> Any:
-    """`value` as JSON can hold it: lists and numbers of Python, None for what is no number."""
-    if isinstance(value, dict):
-        return {str(key): plain(one) for key, one in value.items()}
-    if isinstance(value, list | tuple | set):
-        return [plain(one) for one in value]
-    if isinstance(value, np.ndarray | np.generic):
-        return plain(value.tolist())
-    if isinstance(value, float):
-        return value if math.isfinite(value) else None
-    return value
 
 
 def _log_to(path: Path) -> logging.Logger:

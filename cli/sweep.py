@@ -10,6 +10,7 @@ from rich.console import Console
 from rich.table import Table
 
 from cli.errors import BAD_INPUT, UserError
+from imitation.recording.json_file import write_json
 
 
 def out_of(overrides: list[str]) -> str | None:
@@ -27,7 +28,7 @@ def out_of(overrides: list[str]) -> str | None:
 def summary(folder: Path) -> int:
     """Gather the jobs' exit codes in sweep.json, print them, and return the worst."""
     jobs = sorted(_told(folder), key=lambda one: int(one["job"]))
-    (folder / "sweep.json").write_text(json.dumps({"jobs": jobs}, indent=2) + "\n")
+    write_json(folder / "sweep.json", {"jobs": jobs})
     table = Table(title="sweep", title_justify="left")
     for heading in ("job", "exit code", "overrides"):
         table.add_column(heading)

@@ -1,6 +1,5 @@
 """What the paper claims, beside what was measured: NAME.claims.json."""
 
-import json
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass, replace
@@ -11,6 +10,7 @@ import numpy as np
 
 from imitation.analysis.statistics import bootstrap, rate_is_met, wilson
 from imitation.arrays import Array
+from imitation.recording.json_file import write_json
 
 
 @dataclass(frozen=True)
@@ -108,15 +108,8 @@ def write_claims(
         "figure": figure,
         "demo": demo,
         "seeds": seeds,
-        "claims": [_without_nan(asdict(claim)) for claim in claims],
+        "claims": [asdict(claim) for claim in claims],
     }
     path = folder / f"{figure}.claims.json"
-    path.write_text(json.dumps(content, indent=2, ensure_ascii=False, allow_nan=False) + "\n")
+    write_json(path, content)
     return path
-
-
-def _without_nan(claim: dict[str, object]) -> dict[str, object]:
-    return {
-        key: None if isinstance(value, float) and not math.isfinite(value) else value
-        for key, value in claim.items()
-    }

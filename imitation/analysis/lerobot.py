@@ -11,6 +11,7 @@ import pyarrow as pa  # type: ignore[import-untyped]
 import pyarrow.parquet as pq  # type: ignore[import-untyped]
 
 from imitation.analysis.running_statistics import Statistics
+from imitation.recording.json_file import write_json
 from imitation.recording.mcap_recording import Recording
 from imitation.recording.recorded_steps import StepTold, steps_told
 from imitation.robot import SECOND
@@ -53,10 +54,10 @@ class Dataset:
     def finish(self) -> None:
         """Write what tells of the whole dataset."""
         meta = self._folder / "meta"
-        (meta / "info.json").write_text(json.dumps(self._info(), indent=2) + "\n")
+        write_json(meta / "info.json", self._info())
         shapes = {STATE: (-1,), ACTION: (-1,), CAMERA: (3, 1, 1), "timestamp": (1,)}
         told = {name: one.told(shapes[name]) for name, one in self._statistics.items()}
-        (meta / "stats.json").write_text(json.dumps(told, indent=2) + "\n")
+        write_json(meta / "stats.json", told)
         pq.write_table(_tasks(self._tasks), meta / "tasks.parquet")
         pq.write_table(pa.Table.from_pylist(self._episodes), self._folder / EPISODES)
 

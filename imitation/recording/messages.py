@@ -3,7 +3,6 @@
 import json
 import math
 import struct
-from collections.abc import Sequence
 from functools import cache
 from typing import Any
 
@@ -11,6 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 from rosbags.serde import SerdeError
 from rosbags.typesys import Stores, get_typestore
+
+from imitation.recording.json_file import plain
 
 STORE: Any = get_typestore(Stores.ROS2_JAZZY)
 SECOND = 1_000_000_000  # [ns]
@@ -179,7 +180,7 @@ def compressed_image(time_ns: int, jpeg: bytes) -> bytes:
 
 def log(time_ns: int, kind: str, sentence: str, facts: dict[str, object]) -> bytes:
     """An event as `rcl_interfaces/msg/Log`, as CDR: the message is a sentence and JSON."""
-    text = json.dumps(_plain(facts), separators=(",", ":"), ensure_ascii=False)
+    text = json.dumps(plain(facts), separators=(",", ":"), ensure_ascii=False)
     when = make("builtin_interfaces/msg/Time", *divmod(time_ns, SECOND))
     return serialised(make(LOG, when, LOG_INFO, kind, f"{sentence} {text}", "", "", 0))
 
@@ -188,19 +189,6 @@ def split_log(message: Any) -> tuple[str, dict[str, Any]]:
     """Sentence and facts of an event's message."""
     sentence, brace, facts = message.msg.partition(" {")
     return sentence, json.loads(brace[1:] + facts) if brace else {}
-
-
-def _plain(value: object) -> object:
-    """`value` with nothing in it that JSON lacks: arrays become lists, nan and inf null."""
-    if isinstance(value, dict):
-        return {str(key): _plain(item) for key, item in value.items()}
-    if isinstance(value, np.ndarray | np.generic):
-        return _plain(value.tolist())
-    if isinstance(value, Sequence) and not isinstance(value, str):
-        return [_plain(item) for item in value]
-    if isinstance(value, float) and not math.isfinite(value):
-        return None
-    return value
 
 
 def _layout(shape: tuple[int, ...], labels: tuple[str, ...]) -> Any:
