@@ -5,11 +5,11 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-import cv2
 import numpy as np
 
 from imitation.arrays import Image
 from imitation.guard import REASONS
+from imitation.jpeg import decoded
 from imitation.recording import messages
 from imitation.recording.mcap_recording import Recording
 from imitation.recording.step_messages import Message, Topic
@@ -123,10 +123,8 @@ def picture(told: Any) -> tuple[Image, bytes | None]:
         if told.data.size != told.height * told.width * 3:
             raise ValueError(f"a frame of {told.width}x{told.height} px is damaged")
         return told.data.reshape(told.height, told.width, 3), None
-    frame = cv2.imdecode(told.data, cv2.IMREAD_COLOR_RGB)
-    if frame is None:
-        raise ValueError("a JPEG frame is damaged")
-    return np.asarray(frame, dtype=np.uint8), told.data.tobytes()
+    jpeg = told.data.tobytes()
+    return decoded(jpeg), jpeg
 
 
 def _step(

@@ -9,6 +9,7 @@ import cv2
 import numpy as np
 
 from imitation.arrays import Image
+from imitation.jpeg import decoded
 from imitation.robot import SECOND, Shot
 
 # OpenCV and FFmpeg have words of their own for what we say in one line.
@@ -72,18 +73,6 @@ class Development:
     def shot(self, jpeg: bytes, time_ns: int) -> Shot:
         """What is seen of a recorded picture."""
         return Shot(decoded(jpeg), time_ns, np.array(self.gaze), jpeg=jpeg)
-
-
-def decoded(jpeg: bytes) -> Image:
-    """The picture that a JPEG holds, RGB.
-
-    Raises:
-        ValueError: It is damaged.
-    """
-    picture = cv2.imdecode(np.frombuffer(jpeg, dtype=np.uint8), cv2.IMREAD_COLOR_RGB)
-    if picture is None:
-        raise ValueError("a recorded frame is no JPEG picture: the recording is damaged")
-    return np.asarray(picture, dtype=np.uint8)
 
 
 def pictures(film: Any, start: float, end: float | None) -> Iterator[tuple[int, Image]]:

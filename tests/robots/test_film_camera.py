@@ -7,8 +7,9 @@ import pytest
 from made_up_films import film
 from on_bench import bench
 
+from imitation.jpeg import decoded
 from imitation.robot import Command
-from imitation.robots.opencv_camera import cropped, decoded, framed
+from imitation.robots.opencv_camera import cropped, framed
 
 
 def shown(path, *words):
