@@ -1,7 +1,6 @@
 """The arm with its fingers, and the object it handles, in three dimensions."""
 
 import tempfile
-import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 from typing import Any
 
@@ -9,7 +8,7 @@ import numpy as np
 import pyarrow as pa  # type: ignore[import-untyped]
 import rerun as rr
 import yaml
-from rerun.urdf import UrdfTree
+from rerun.urdf import UrdfJoint, UrdfTree
 
 from imitation.arrays import Array
 from imitation.recording.picture_columns import Batch, Overview
@@ -33,7 +32,8 @@ class BodyDrawing:
         told = yaml.safe_load(shown.attachments.get("config.yaml", b"")) or {}
         arm = told.get("robot", {}).get("arm", {})
         self._base = np.array(arm.get("base", (0.0, 0.0, 0.0)))
-        self._fingers = _ranges(shown.urdf, (arm.get("gripper") or {}).get("joints", []))
+        fingers = (arm.get("gripper") or {}).get("joints", [])
+        self._fingers = {name: _range(self._tree.get_joint_by_name(name)) for name in fingers}
         self._object: dict[str, Any] | None = told.get("object")
 
     def draw_constants(self, stream: rr.RecordingStream) -> None:
@@ -90,15 +90,7 @@ def _tree(urdf: bytes) -> UrdfTree:
         return UrdfTree.from_file_path(path, "arm")
 
 
-def _ranges(urdf: bytes, joints: list[str]) -> dict[str, tuple[float, float]]:
-    """Lower and upper limit of some joints of a URDF [rad]."""
-    limits = {
-        node.attrib["name"]: node.find("limit")
-        for node in ElementTree.fromstring(urdf).iter("joint")
-    }
-    found = {}
-    for name in joints:
-        limit = limits[name]
-        assert limit is not None
-        found[name] = (float(limit.attrib["lower"]), float(limit.attrib["upper"]))
-    return found
+def _range(joint: UrdfJoint | None) -> tuple[float, float]:
+    """Lower and upper limit of a joint [rad]."""
+    assert joint is not None
+    return joint.limit_lower, joint.limit_upper
