@@ -7,7 +7,8 @@ from hypothesis import strategies as st
 
 from imitation.gaze import VisualSpace, rotation
 from imitation.robots.bullet.photograph import BulletScene
-from imitation.robots.bullet.world import Mark, Table, World
+from imitation.robots.bullet.world import Mark, World
+from imitation.robots.bullet.world_table import Table
 from imitation.vision import ColourDetector
 
 SPACE = VisualSpace(size=(160, 120), focal=278.2, centre=(80.0, 60.0), reference=(0.0, -1.2))

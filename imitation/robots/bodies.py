@@ -9,9 +9,10 @@ from imitation.gaze import VisualSpace
 from imitation.guard import Guard
 from imitation.robot import Body
 from imitation.robots.bullet.arm import BulletArm
-from imitation.robots.bullet.world import Mark, Table, World, find_urdf
+from imitation.robots.bullet.world import Mark, World, find_urdf
 from imitation.robots.bullet.world_can import Can
 from imitation.robots.bullet.world_gripper import Fingers
+from imitation.robots.bullet.world_table import Table
 from imitation.robots.demonstrators import Demonstrator
 from imitation.robots.ideal import IdealArm, pixel
 from imitation.robots.kinematic_chain import KinematicChain, TableAndBase

@@ -9,6 +9,7 @@ import numpy as np
 from imitation.robots.bullet.arm import BulletArm
 from imitation.robots.bullet.photograph import projection_matrix, view_matrix
 from imitation.robots.bullet.world import FLAT_LIGHT, World, pybullet
+from imitation.robots.bullet.world_table import add_seen
 from tests.benchmarks.figure import Figure
 from tests.benchmarks.reaching import Reach, learn_map
 
@@ -68,12 +69,7 @@ def as_it_is(world: World) -> None:
 
 def with_table(world: World) -> None:
     """Let the engine draw the table, as a loop of its own would, so that the picture is whole."""
-    call = {"physicsClientId": world._client}
-    half = [side / 2 for side in world.table.size]
-    shape = pybullet.createVisualShape(
-        pybullet.GEOM_BOX, halfExtents=half, rgbaColor=world.table.colour, **call
-    )
-    pybullet.createMultiBody(0, -1, shape, world.table.centre, **call)
+    add_seen(world.table, world._client)
 
 
 def bare_step_times(reach: Reach, prepare: Callable[[World], None]) -> list[float]:

@@ -6,7 +6,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays
 
-from imitation.robots.bullet.world import Mark, Table, World, find_urdf
+from imitation.robots.bullet.world import Mark, World, find_urdf
+from imitation.robots.bullet.world_table import Table
 from imitation.robots.kinematic_chain import (
     KinematicChain,
     TableAndBase,

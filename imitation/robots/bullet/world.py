@@ -12,6 +12,7 @@ from imitation.arrays import Array, Image
 from imitation.robots.bullet.silence import silence
 from imitation.robots.bullet.world_can import Can, StandingCan
 from imitation.robots.bullet.world_gripper import Fingers, Gripper
+from imitation.robots.bullet.world_table import Table, add_seen, add_solid
 
 with silence():
     import pybullet
@@ -36,21 +37,6 @@ def find_urdf(name: str) -> Path:
         if path.is_file():
             return path
     raise ValueError(f"no URDF file {name}: give a path, or a name below pybullet_data")
-
-
-@dataclass(frozen=True)
-class Table:
-    """A box to work on."""
-
-    size: tuple[float, float, float]  # x, y, z [m]
-    centre: tuple[float, float, float]  # of the box [m]
-    colour: tuple[float, float, float, float]  # red, green, blue, opacity [0..1]
-    friction: float  # lateral, without unit
-
-    @property
-    def height(self) -> float:
-        """Height of the table's top [m]."""
-        return self.centre[2] + self.size[2] / 2
 
 
 @dataclass(frozen=True)
@@ -112,7 +98,7 @@ class World:
             deterministicOverlappingPairs=1,
             **call,
         )
-        self._add_table(call)
+        self._add_table()
         self._arm = pybullet.loadURDF(str(self.path), self.base, useFixedBase=True, **call)
         count = pybullet.getNumJoints(self._arm, **call)
         info = [pybullet.getJointInfo(self._arm, joint, **call) for joint in range(count)]
@@ -236,32 +222,10 @@ class World:
 
     def _render_table(self, view: Array, projection: Array, size: tuple[int, int]) -> Image:
         client = pybullet.connect(pybullet.DIRECT)
-        half = [side / 2 for side in self.table.size]
-        shape = pybullet.createVisualShape(
-            pybullet.GEOM_BOX,
-            halfExtents=half,
-            rgbaColor=self.table.colour,
-            physicsClientId=client,
-        )
-        pybullet.createMultiBody(
-            0,
-            baseVisualShapeIndex=shape,
-            basePosition=self.table.centre,
-            physicsClientId=client,
-        )
+        add_seen(self.table, client)
         picture = self._picture(client, view, projection, size)
         pybullet.disconnect(client)
         return picture[..., :3].copy()
-
-    def _add_table(self, call: dict[str, Any]) -> None:
-        half = [side / 2 for side in self.table.size]
-        shape = pybullet.createCollisionShape(pybullet.GEOM_BOX, halfExtents=half, **call)
-        # Without a visual shape PyBullet would draw the collision shape.
-        speck = pybullet.createVisualShape(pybullet.GEOM_SPHERE, radius=0.001, **call)
-        table = pybullet.createMultiBody(0, shape, speck, self.table.centre, **call)
-        pybullet.changeDynamics(
-            table, -1, lateralFriction=self.table.friction, restitution=0.0, **call
-        )
 
     def carry_mark(self) -> Array:
         """Put the mark where the hand is; returns its centre, (3,) [m]."""
@@ -290,6 +254,9 @@ class World:
         """Let the can follow another's `hand` (3,) [m]; None: it stands for itself."""
         if self._can:
             self._can.follow(hand)
+
+    def _add_table(self) -> None:
+        add_solid(self.table, self._client)
 
     def _add_gripper(self, joints: Mapping[str, int]) -> Gripper | None:
         if self.fingers is None:

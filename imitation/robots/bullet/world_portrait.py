@@ -11,6 +11,7 @@ from imitation.arrays import Array, Image
 from imitation.gaze import VisualSpace
 from imitation.robots.bullet.photograph import projection_matrix, view_matrix
 from imitation.robots.bullet.world import World
+from imitation.robots.bullet.world_table import add_seen
 
 DARK, LIGHT = (0.16, 0.17, 0.20, 1.0), (0.62, 0.64, 0.68, 1.0)  # of camera and stand, RGBA
 SKIN = (0.88, 0.67, 0.55, 1.0)  # RGBA
@@ -175,10 +176,9 @@ class LitWorld(World):
         height = z - 0.05 - self.table.height
         self._box((0.010, 0.010, height / 2), (x, y, self.table.height + height / 2), None, LIGHT)
 
-    def _add_table(self, call: dict[str, Any]) -> None:
-        super()._add_table(call)
-        half = [side / 2 for side in self.table.size]
-        self._box(half, self.table.centre, None, self.table.colour)
+    def _add_table(self) -> None:
+        super()._add_table()
+        add_seen(self.table, self._client)
 
     def _box(
         self, half: Sequence[float], centre: Any, turned: Any, colour: Sequence[float]
