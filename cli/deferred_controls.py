@@ -18,8 +18,6 @@ from imitation.analysis.statistics import bootstrap, wilson
 from imitation.recording.action_file import Action
 from imitation.visuo_motor_map import VisuoMotorMap
 
-RESAMPLES = 2000  # of the bootstrap
-
 
 @dataclass(frozen=True)
 class Shown:
@@ -57,7 +55,7 @@ def controls(shown: Shown) -> list[dict[str, Any]]:
         "in every other order": (partial(_in_order, shown, orders), range(len(orders))),
     }
     return [
-        scored(name, on_every_seed(name, work, over, asked["workers"]))
+        scored(name, on_every_seed(name, work, over, asked["workers"]), asked["resamples"])
         for name, (work, over) in conditions.items()
     ]
 
@@ -75,12 +73,12 @@ def reordered(action: Action, order: Sequence[int]) -> Action:
     return replace(action, states=states)
 
 
-def scored(condition: str, results: Sequence[dict[str, Any]]) -> dict[str, Any]:
+def scored(condition: str, results: Sequence[dict[str, Any]], resamples: int) -> dict[str, Any]:
     """Of a condition's replays: target acts done, and how many did all of them in order."""
     done = [np.array([acts_done(result)]) for result in results]
     complete = sum(all_in_order(result) for result in results)
     rng = np.random.default_rng(0)
-    share = bootstrap(done, lambda values: float(np.mean(values)), rng, RESAMPLES)
+    share = bootstrap(done, lambda values: float(np.mean(values)), rng, resamples)
     whole = wilson(complete, len(results))
     return {
         "condition": condition,

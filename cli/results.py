@@ -27,7 +27,6 @@ from imitation.recording.json_file import write_json
 from imitation.recording.map_file import LearnedMap
 from imitation.stages.trials import from_learned_postures
 
-RESAMPLES = 2000  # of the bootstrap
 RESULTS = Path("data/results.json")
 
 
@@ -95,7 +94,7 @@ def told_of_learning(name: str, runs: Sequence[Learned]) -> dict[str, Any]:
 
 
 def told_of_reaching(
-    name: str, field: str, results: Sequence[dict[str, Any]], late_s: float
+    name: str, field: str, results: Sequence[dict[str, Any]], late_s: float, resamples: int
 ) -> dict[str, Any]:
     """One row of the table of reaching; intervals of medians are by bootstrap over maps."""
     maps = [result["trials"] for result in results]
@@ -116,7 +115,7 @@ def told_of_reaching(
         groups = [group for group in groups if len(group)]
         if not groups:
             return [None, None, None]
-        interval = bootstrap(groups, lambda values: float(np.median(values)), rng, RESAMPLES)
+        interval = bootstrap(groups, lambda values: float(np.median(values)), rng, resamples)
         return [float(np.median(np.concatenate(groups))), interval.low, interval.high]
 
     return {
@@ -179,7 +178,8 @@ def measure(cfg: Config) -> dict[str, list[dict[str, Any]]]:
                     called = f"{name}, learned places" if places else name
                     results = each(reach_one, tasks, f"reach: {called} on {field}")
                     late = 0.2 if "experiment=late_camera" in words else 0.0
-                    found["reaching"].append(told_of_reaching(called, field, results, late))
+                    row = told_of_reaching(called, field, results, late, cfg["resamples"])
+                    found["reaching"].append(row)
                     write(cfg, found)
     return found
 

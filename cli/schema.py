@@ -392,6 +392,7 @@ class DeferredControls(Section):
     seeds: Count
     noise_level: NotNegative
     noise_steps: Count
+    resamples: Count
     workers: Count
 
 
