@@ -157,9 +157,13 @@ class Bench:
 
     def relive(self, steps: Iterator[RecordedStep]) -> None:
         """Have a robot from now on that senses what a recording tells, step by step."""
-        body = made_of(body_of, self.cfg["robot"]["arm"])
-        home = self.guided.mean(axis=0)
+        body, home = self.body, self.guided.mean(axis=0)
         self.robot = RecordedRobot(body, self.guard(body), home, self.period_ns, steps)
+
+    @property
+    def body(self) -> Body:
+        """Joints and limits of the arm as configured, without the arm."""
+        return made_of(body_of, self.cfg["robot"]["arm"])
 
     def guard(self, body: Body) -> Guard:
         """What no command may make a body do."""

@@ -51,11 +51,9 @@ def imitations(seed: int, settings: Fig6) -> Imitations:
     run, percepts = measured(controlled, learned)
     shuffled = shuffled_correlations(range(settings.shuffles), controlled, learned, percepts)
     alone = {name: measured(cfg, learned)[0] for name, cfg in without(controlled).items()}
-    body = Bench(controlled).robot
-    body.close()
     return Imitations(
         learned=learned,
-        transition_s=fastest_transition(learned, body.body.acceleration),
+        transition_s=fastest_transition(learned, Bench(controlled).body.acceleration),
         followed=list(_followed(seed, settings, learned)),
         smoothed=list(_smoothed(seed, settings, learned)),
         correlation=run.correlation(),
