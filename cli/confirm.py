@@ -39,8 +39,7 @@ def _plan(bench: Bench) -> Table:
         table.add_column(heading)
     fastest = robot.body.speed
     for number, name in enumerate(robot.body.joint_names):
-        angles = (f"{np.degrees(one[number]):.0f}°" for one in (here, home, fastest))
-        at, to, speed = angles
+        at, to, speed = (f"{np.degrees(one[number]):.0f}°" for one in (here, home, fastest))
         table.add_row(name, at, to, f"{speed}/s")
     notes = [f"period {robot.period:g} s", f"camera {cfg['camera'].get('device', 'simulated')}"]
     if driving.get("calibrate"):
