@@ -6,7 +6,7 @@ from datetime import datetime
 from pathlib import Path
 
 from cli.errors import UserError
-from imitation.recording.free_path import next_free
+from imitation.recording.run_files import next_free
 
 OURS = ("run.mcap", "config.yaml", "metrics.json", "log.txt", "sweep.json", "multirun.yaml")
 

@@ -9,6 +9,7 @@ import yaml
 
 from cli.errors import DEVICE, DONE, UserError, say
 from imitation.recording.rerun_view import derive, screenshot
+from imitation.recording.run_files import file_in
 
 
 def view(run: Path, png: Path | None) -> int:
@@ -32,7 +33,7 @@ def _rrd_of(run: Path) -> Path:
         raise UserError(f"no run at {run}; type the folder that `imitate` named at its end")
     if run.suffix == ".rrd":
         return run
-    recording = run / "run.mcap" if run.is_dir() else run
+    recording = file_in(run, "run.mcap")
     rrd = recording.with_suffix(".rrd")
     if not rrd.exists():
         derive(recording, rrd, demonstration_of(recording.parent))

@@ -17,6 +17,7 @@ from imitation.analysis.metrics import ReachMetrics
 from imitation.arrays import Array
 from imitation.hull import depth_inside
 from imitation.recording.map_file import LearnedMap, differences, fingerprint, load_map
+from imitation.recording.run_files import file_in
 from imitation.sample import Sample
 from imitation.stages.reach import Trial
 from imitation.stages.trials import from_learned_postures, random_targets
@@ -59,7 +60,7 @@ def the_map(run: Run) -> LearnedMap:
     """The map that `map=` names, if it is this body's."""
     named = Path(str(run.cfg["map"])).expanduser()
     stored = load_map(named)
-    run.uses("map", named / "map.npz" if named.is_dir() else named)
+    run.uses("map", file_in(named, "map.npz"))
     bench, field = run.bench, stored.map.field
     present = fingerprint(bench.robot.body, field, bench.learning_space)
     if found := differences(stored.fingerprint, present):

@@ -15,6 +15,7 @@ from cli.replaying import replaying
 from cli.run import Outcome, Run
 from imitation.analysis.deferred import DeferredMetrics
 from imitation.recording.action_file import Action, load_action
+from imitation.recording.run_files import file_in
 from imitation.visual_field import Area
 from imitation.visuo_motor_map import VisuoMotorMap
 
@@ -48,7 +49,7 @@ def the_action(run: Run) -> Action:
     named = Path(str(run.cfg["action"])).expanduser()
     cells = run.cfg["sequence"]["cells"]
     action = load_action(named, cells["shortest"], cells["longest"])
-    run.uses("action", named / "action.json" if named.is_dir() else named)
+    run.uses("action", file_in(named, "action.json"))
     if action.field.size != run.bench.space.size:
         raise UserError(
             f"action={named} was seen in an image of {_size(action.field.size)} px, this camera's "

@@ -13,6 +13,7 @@ from pathlib import Path
 import numpy as np
 
 from imitation.recording.json_lines import LineError, Node, read_json
+from imitation.recording.run_files import file_in
 from imitation.visual_field import Area, VisualField
 from imitation.visual_states import VisualState
 
@@ -76,7 +77,7 @@ def load_action(path: Path, shortest: float, longest: float) -> Action:
     Raises:
         ValueError: There is none, or it says nonsense; the message names the line and a way out.
     """
-    file = path / "action.json" if path.is_dir() else path
+    file = file_in(path, "action.json")
     if not file.is_file():
         raise ValueError(f"no action at {file}; record one with: imitate demo-record")
     if file.stat().st_size > MAX_BYTES:

@@ -11,6 +11,7 @@ import numpy as np
 
 from imitation.arrays import Array
 from imitation.gaze import VisualSpace
+from imitation.recording.run_files import file_in
 from imitation.robot import Body
 from imitation.visual_field import VisualField
 from imitation.visuo_motor_map import Learning, VisuoMotorMap
@@ -87,7 +88,7 @@ def load_map(path: Path) -> LearnedMap:
     Raises:
         ValueError: There is none, or it is no map; the message says what to do.
     """
-    file = path / "map.npz" if path.is_dir() else path
+    file = file_in(path, "map.npz")
     if not file.is_file():
         raise ValueError(f"no map at {file}; learn one with: imitate learn-map")
     if file.stat().st_size > MAX_BYTES:

@@ -12,6 +12,7 @@ from imitation.recording.digest import Digest
 from imitation.recording.fifo import Worker, WorkFailedError
 from imitation.recording.mcap_file import McapFile
 from imitation.recording.mcap_reading import Contents, chunks, contents
+from imitation.recording.run_files import file_in
 from imitation.recording.step_messages import Message, StepMessages, Topic, event_message
 from imitation.robot import SECOND, Body, Truth
 from imitation.sample import Event, Sample
@@ -161,7 +162,7 @@ def recording_in(path: Path) -> Path:
     Raises:
         ValueError: There is none.
     """
-    file = path / "run.mcap" if path.is_dir() else path
+    file = file_in(path, "run.mcap")
     if not file.is_file():
         raise ValueError(f"no recording at {file}; give a run folder or its run.mcap")
     return file

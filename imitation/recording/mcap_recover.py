@@ -13,9 +13,9 @@ from mcap.records import Attachment, Channel, Chunk, Metadata, Schema
 from mcap.writer import CompressionType
 
 from imitation.recording.digest import Digest
-from imitation.recording.free_path import free
 from imitation.recording.mcap_quick import NO_LIMIT, QuickWriter
 from imitation.recording.mcap_reading import MESSAGE_FIELDS, parts, records, unpacked
+from imitation.recording.run_files import free
 
 KINDS: dict[int, Any] = {
     Opcode.METADATA: Metadata,

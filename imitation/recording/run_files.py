@@ -1,6 +1,11 @@
-"""Names of new files and folders: nothing is written over."""
+"""Where the files of runs lie, and how new ones are called: nothing is written over."""
 
 from pathlib import Path
+
+
+def file_in(path: Path, name: str) -> Path:
+    """The file of that `name` in a run folder, or `path` itself when it is none."""
+    return path / name if path.is_dir() else path
 
 
 def free(path: Path) -> Path:
