@@ -21,7 +21,7 @@ from cli.interruption import STOP, sigterm_like_ctrl_c
 from cli.report import show
 from cli.run import Outcome, Run
 from imitation.device import DeviceError
-from imitation.recording.mcap_recording import RecorderError
+from imitation.recording.recorder import RecorderError
 
 Work = Callable[[Run], Outcome]
 

@@ -22,7 +22,7 @@ from imitation.analysis.cadence import Cadence
 from imitation.analysis.frame_count import FrameCount
 from imitation.device import DeviceError
 from imitation.recording.json_file import write_json
-from imitation.recording.mcap_recording import Recorder
+from imitation.recording.recorder import Recorder
 from imitation.robot import SECOND, Truth
 from imitation.robots.bullet.world import find_urdf
 from imitation.sample import Event, Sample

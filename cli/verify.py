@@ -14,8 +14,9 @@ from cli.recompute import Anew, anew, configuration
 from cli.what_if import replaced
 from imitation.analysis.comparison import Comparison, Difference
 from imitation.analysis.seal import Break, broken, cited
-from imitation.recording.mcap_recording import Recorder, Recording
+from imitation.recording.mcap_recording import Recording
 from imitation.recording.recorded_steps import StepTold
+from imitation.recording.recorder import Recorder
 from imitation.recording.run_files import free
 from imitation.recording.step_messages import StepMessages
 from imitation.robot import SECOND

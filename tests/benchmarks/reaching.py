@@ -16,7 +16,7 @@ from cli.check import checked
 from cli.jobs.reach import reaching, trials_of
 from imitation.arrays import Array
 from imitation.recording.map_file import load_map
-from imitation.recording.mcap_recording import Recorder
+from imitation.recording.recorder import Recorder
 from imitation.sample import Sample
 
 MAP = "map"  # folder of the learned map, beside the runs

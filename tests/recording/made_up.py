@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 
 from imitation.perception import Percept
-from imitation.recording.mcap_recording import Recorder
+from imitation.recording.recorder import Recorder
 from imitation.recording.step_messages import Topic, topics
 from imitation.robot import Applied, Body, Command, Observation, Truth
 from imitation.sample import Decision, Event, Sample, attractors_not_in_map

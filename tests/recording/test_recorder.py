@@ -13,7 +13,8 @@ from mcap.writer import CompressionType, Writer
 from rosbags.highlevel import AnyReader
 
 from imitation.recording import mcap_file
-from imitation.recording.mcap_recording import Recorder, RecorderError, Recording, bounds
+from imitation.recording.mcap_recording import Recording
+from imitation.recording.recorder import Recorder, RecorderError, bounds
 
 KILLED = """
 import sys; sys.path.insert(0, {tests!r})

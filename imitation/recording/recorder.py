@@ -1,0 +1,150 @@
+"""The recording `run.mcap`, written live from a thread."""
+
+import queue
+from collections.abc import Mapping, Sequence
+from contextlib import suppress
+from pathlib import Path
+
+from imitation.recording.fifo import Worker, WorkFailedError
+from imitation.recording.mcap_file import McapFile
+from imitation.recording.step_messages import StepMessages, event_message
+from imitation.robot import SECOND, Body, Truth
+from imitation.sample import Event, Sample
+from imitation.visual_field import VisualField
+
+LONGEST_QUEUE_NS = SECOND // 4
+
+
+class RecorderError(RuntimeError):
+    """The recording cannot be written; said in one line."""
+
+
+class Recorder:
+    """Writes each step of a run to a file, from a thread, and drops nothing.
+
+    Args:
+        path: The file; must not exist.
+        body: The arm.
+        field: The visual field.
+        period_ns: Control period [ns].
+        metadata: What the record `run` says: command, version, seed, ...
+        attachments: Files that belong to the run, by name.
+        max_loss: Most robot time that a kill may lose [s].
+        reproducible: Whether the same run is to give the same bytes. If not, a record `clock`
+            tells when it started, and slow runs are also saved once a second of wall time.
+        patience: Longest that a write may wait for the disk [s of wall time]: a period of a
+            robot in real time; None for a simulation, which can wait.
+
+    Raises:
+        RecorderError: The file cannot be made.
+        ValueError: `max_loss` holds less than two periods.
+    """
+
+    def __init__(
+        self,
+        path: Path,
+        body: Body,
+        field: VisualField,
+        period_ns: int,
+        metadata: Mapping[str, str],
+        attachments: Mapping[str, bytes],
+        max_loss: float,
+        reproducible: bool,
+        patience: float | None = None,
+    ) -> None:
+        waiting, chunk_ns = bounds(max_loss, period_ns)
+        self.path, self._patience = path, patience
+        self._closed = self._failed = False
+        self._steps = StepMessages(body)
+        try:
+            self._file = McapFile(path, body, field, period_ns, chunk_ns, not reproducible)
+            self._file.begin(metadata, attachments)
+        except OSError as error:
+            raise self._failure(error) from error
+        self._worker: Worker[tuple[Sample, Sequence[Truth] | Event]] = Worker(
+            self._write, self._file.close_old_chunk, waiting, None if reproducible else 0.1
+        )
+
+    def write(self, sample: Sample, truths: Sequence[Truth]) -> None:
+        """Record one step and what was true since the last one; their arrays must not change.
+
+        Raises:
+            RecorderError: Writing failed, now or before, or the queue stayed full for longer
+                than `patience`: put the robot to rest and end the run.
+        """
+        self._put((sample, truths))
+
+    def tell(self, last: Sample, event: Event) -> None:
+        """Record what happened after the `last` step.
+
+        Raises:
+            RecorderError: As `write` does.
+        """
+        self._put((last, event))
+
+    def _put(self, what: tuple[Sample, Sequence[Truth] | Event]) -> None:
+        try:
+            self._worker.put(what, self._patience)
+        except queue.Full as full:
+            raise RecorderError(
+                f"{self.path.name} cannot keep up: nothing written for {self._patience} s; "
+                "record to a faster disk"
+            ) from full
+        except OSError as error:
+            raise self._failure(error) from error
+
+    def close(self) -> None:
+        """Write what waits, seal the file and close it; harmless when repeated.
+
+        Raises:
+            RecorderError: Writing failed.
+        """
+        if self._closed:
+            return
+        self._closed = True
+        self._worker.finish()
+        try:
+            if not self._failed:
+                self._worker.check()
+                self._file.seal()
+        except WorkFailedError as error:
+            raise self._failure(error.__cause__ or error) from error
+        except OSError as error:
+            raise self._failure(error) from error
+        finally:
+            with suppress(OSError):  # of bytes that were refused, and told of, before
+                self._file.close()
+
+    def __enter__(self) -> "Recorder":
+        return self
+
+    def __exit__(self, *error: object) -> None:
+        self.close()
+
+    def _write(self, step: tuple[Sample, Sequence[Truth] | Event]) -> None:
+        sample, more = step
+        if isinstance(more, Event):
+            self._file.add_step(sample, [event_message(sample.applied.time_ns, more)])
+        else:
+            self._file.add_step(sample, self._steps.of(sample, more))
+
+    def _failure(self, error: BaseException) -> RecorderError:
+        self._failed = True
+        told = error.strerror if isinstance(error, OSError) else None
+        return RecorderError(f"{self.path.name} cannot be written: {told or repr(error)}")
+
+
+def bounds(max_loss: float, period_ns: int) -> tuple[int, int]:
+    """How many steps may wait, and how long a chunk may be [ns], to lose `max_loss` [s] at most.
+
+    Raises:
+        ValueError: `max_loss` holds less than two periods.
+    """
+    loss_ns = round(max_loss * SECOND)
+    if loss_ns < 2 * period_ns:
+        raise ValueError(
+            f"recording.max_loss={max_loss:g} s holds less than two control periods of "
+            f"{period_ns / SECOND:g} s; give at least {2 * period_ns / SECOND:g}"
+        )
+    waiting = max(1, min(LONGEST_QUEUE_NS, loss_ns // 4) // period_ns)
+    return waiting, loss_ns - waiting * period_ns
