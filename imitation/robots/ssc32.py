@@ -1,14 +1,15 @@
-"""A neck of two servos on an SSC-32 servo controller, and a camera on it (facts/katana.md, 4)."""
+"""A neck of two servos on an SSC-32 servo controller (facts/katana.md, 4)."""
 
 import time
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
 from imitation.arrays import Array
 from imitation.device import DeviceError
-from imitation.robot import SECOND, Camera, Shot
+from imitation.robot import Camera
+from imitation.robots.camera_on_neck import CameraOnNeck
 from imitation.robots.line import Line
 from imitation.robots.serial_line import SerialLine
 
@@ -170,41 +171,6 @@ def ask(line: Line, asked: str, timeout: float, until: bytes = b"", count: int =
             )
         received += more
     return received
-
-
-class CameraOnNeck:
-    """A camera that a neck turns.
-
-    Args:
-        camera: What is turned.
-        neck: What turns it.
-    """
-
-    def __init__(self, camera: Camera, neck: Ssc32Neck) -> None:
-        self._camera, self._neck = camera, neck
-        self.live = True
-
-    def look(self, time_ns: int, gaze: Array | None) -> Shot:
-        """Turn to `gaze` (as it is when None) and return the newest frame."""
-        if gaze is not None:
-            self._neck.turn(gaze)
-        self._neck.check()
-        shot = self._camera.look(time_ns, None)
-        return replace(shot, gaze=self._neck.gaze((time_ns - shot.time_ns) / SECOND))
-
-    def reset(self, time_ns: int) -> None:
-        """Forget frames of the episode before; the first time, the neck wakes."""
-        self._neck.wake()
-        self._camera.reset(time_ns)
-
-    def locate(self, position: Array) -> Array:
-        """Where a point of the world [m] lies in visual space, (2,) [px]."""
-        return self._camera.locate(position)
-
-    def close(self) -> None:
-        """Release camera and neck; harmless when repeated."""
-        self._camera.close()
-        self._neck.close()
 
 
 def ssc32_neck(
