@@ -8,7 +8,8 @@ import numpy as np
 
 from imitation.robots.bullet.arm import BulletArm
 from imitation.robots.bullet.photograph import projection_matrix, view_matrix
-from imitation.robots.bullet.world import FLAT_LIGHT, World, pybullet
+from imitation.robots.bullet.world import World, pybullet
+from imitation.robots.bullet.world_picture import FLAT_LIGHT
 from imitation.robots.bullet.world_table import add_seen
 from tests.benchmarks.figure import Figure
 from tests.benchmarks.reaching import Reach, learn_map

@@ -5,29 +5,20 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-import cv2
 import numpy as np
 
 from imitation.arrays import Array, Image
 from imitation.robots.bullet.silence import silence
 from imitation.robots.bullet.world_can import Can, StandingCan
 from imitation.robots.bullet.world_gripper import Fingers, Gripper
-from imitation.robots.bullet.world_table import Table, add_seen, add_solid
+from imitation.robots.bullet.world_picture import FLAT_LIGHT, Backdrop, rendered
+from imitation.robots.bullet.world_table import Table, add_solid
 
 with silence():
     import pybullet
     import pybullet_data
 
 OUT_OF_SIGHT = np.array((0.0, 0.0, -1.0))  # below the table [m]
-WHITE = 0xFFFFFFFF  # what TinyRenderer leaves where nothing is drawn
-FLAT_LIGHT = {
-    "shadow": 0,
-    "lightAmbientCoeff": 1.0,
-    "lightDiffuseCoeff": 0.0,
-    "lightSpecularCoeff": 0.0,
-    "renderer": pybullet.ER_TINY_RENDERER,
-    "flags": pybullet.ER_NO_SEGMENTATION_MASK,
-}
 
 
 def find_urdf(name: str) -> Path:
@@ -85,7 +76,7 @@ class World:
             )
         self.path = find_urdf(self.urdf)
         self._client = pybullet.connect(pybullet.DIRECT)
-        self._backdrops: dict[bytes, Image] = {}
+        self._backdrop = Backdrop(self.table)
 
     def rebuild(self, posture: Array, opening: float) -> None:
         """A new world with the arm at rest at `posture` [rad], the same down to the last bit."""
@@ -188,45 +179,6 @@ class World:
         )
         return np.array(position)
 
-    def render(self, view: Array, projection: Array, size: tuple[int, int]) -> Image:
-        """A picture of the world, RGB, (height, width, 3).
-
-        The table fills the view and would take most of the renderer's time: it is drawn once
-        for each view and laid behind everything else.
-        """
-        key = view.tobytes() + projection.tobytes()
-        if key not in self._backdrops:
-            self._backdrops = {key: self._render_table(view, projection, size)}
-        picture = self._picture(self._client, view, projection, size)
-        bare = (picture.view(np.uint32)[..., 0] == WHITE).view(np.uint8)
-        image = cv2.cvtColor(picture, cv2.COLOR_RGBA2RGB)
-        return np.asarray(cv2.copyTo(self._backdrops[key], bare, image), dtype=np.uint8)
-
-    def close(self) -> None:
-        """End the engine; harmless when repeated."""
-        if pybullet.isConnected(self._client):
-            pybullet.disconnect(self._client)
-
-    def _known(self, name: str, numbers: Mapping[str, int]) -> int:
-        """The number of a joint or link of the URDF, by its name."""
-        if name not in numbers:
-            raise ValueError(f"{self.urdf} has no {name}; it has {', '.join(numbers)}")
-        return numbers[name]
-
-    def _picture(self, client: int, view: Array, projection: Array, size: tuple[int, int]) -> Image:
-        width, height = size
-        _, _, pixels, *_ = pybullet.getCameraImage(
-            width, height, view.tolist(), projection.tolist(), physicsClientId=client, **FLAT_LIGHT
-        )
-        return np.asarray(pixels, dtype=np.uint8).reshape(height, width, 4)
-
-    def _render_table(self, view: Array, projection: Array, size: tuple[int, int]) -> Image:
-        client = pybullet.connect(pybullet.DIRECT)
-        add_seen(self.table, client)
-        picture = self._picture(client, view, projection, size)
-        pybullet.disconnect(client)
-        return picture[..., :3].copy()
-
     def carry_mark(self) -> Array:
         """Put the mark where the hand is; returns its centre, (3,) [m]."""
         position = self.mark_position()
@@ -254,6 +206,22 @@ class World:
         """Let the can follow another's `hand` (3,) [m]; None: it stands for itself."""
         if self._can:
             self._can.follow(hand)
+
+    def render(self, view: Array, projection: Array, size: tuple[int, int]) -> Image:
+        """A picture of the world, RGB, (height, width, 3)."""
+        picture = rendered(self._client, view, projection, size, FLAT_LIGHT)
+        return self._backdrop.behind(picture, view, projection)
+
+    def close(self) -> None:
+        """End the engine; harmless when repeated."""
+        if pybullet.isConnected(self._client):
+            pybullet.disconnect(self._client)
+
+    def _known(self, name: str, numbers: Mapping[str, int]) -> int:
+        """The number of a joint or link of the URDF, by its name."""
+        if name not in numbers:
+            raise ValueError(f"{self.urdf} has no {name}; it has {', '.join(numbers)}")
+        return numbers[name]
 
     def _add_table(self) -> None:
         add_solid(self.table, self._client)

@@ -11,6 +11,7 @@ from imitation.arrays import Array, Image
 from imitation.gaze import VisualSpace
 from imitation.robots.bullet.photograph import projection_matrix, view_matrix
 from imitation.robots.bullet.world import World
+from imitation.robots.bullet.world_picture import SOFTWARE, rendered
 from imitation.robots.bullet.world_table import add_seen
 
 DARK, LIGHT = (0.16, 0.17, 0.20, 1.0), (0.62, 0.64, 0.68, 1.0)  # of camera and stand, RGBA
@@ -21,8 +22,7 @@ LIGHTING = {
     "lightAmbientCoeff": 0.62,
     "lightDiffuseCoeff": 0.42,
     "lightSpecularCoeff": 0.05,
-    "renderer": pybullet.ER_TINY_RENDERER,
-    "flags": pybullet.ER_NO_SEGMENTATION_MASK,
+    **SOFTWARE,
 }
 
 
@@ -109,16 +109,7 @@ class LitWorld(World):
 
     def picture(self, view: Array, projection: Array, size: tuple[int, int]) -> Image:
         """A lit picture, RGB, (height, width, 3)."""
-        width, height = size
-        _, _, pixels, *_ = pybullet.getCameraImage(
-            width,
-            height,
-            view.tolist(),
-            projection.tolist(),
-            physicsClientId=self._client,
-            **LIGHTING,
-        )
-        return np.asarray(pixels, dtype=np.uint8).reshape(height, width, 4)[..., :3]
+        return rendered(self._client, view, projection, size, LIGHTING)[..., :3]
 
     def arrange(self, moment: Moment) -> None:
         """Put everything where it stood at `moment`."""
