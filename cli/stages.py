@@ -6,7 +6,7 @@ import numpy as np
 
 from cli.build import Bench, generator, made_of
 from imitation.controllers.corrected_aim import CorrectedAim
-from imitation.robots.gestures import Mirrored
+from imitation.robots.hand_paths import Mirrored
 from imitation.sample import Sample
 from imitation.stages.babbling import Babbling, Curiosity
 from imitation.stages.check_map import Visit, Visiting, check_map

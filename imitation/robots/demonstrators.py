@@ -11,7 +11,7 @@ import numpy as np
 
 from imitation.arrays import Array
 from imitation.gaze import VisualSpace
-from imitation.robots.gestures import Gesture
+from imitation.robots.hand_paths import Gesture
 
 Colour = tuple[float, float, float, float]  # red, green, blue, opacity [0..1]
 

@@ -9,7 +9,7 @@ from imitation.arrays import Array
 from imitation.gaze import VisualSpace
 from imitation.robots.bullet.world_can import Can
 from imitation.robots.demonstrators import Hand, HandOverTable
-from imitation.robots.gestures import Gesture
+from imitation.robots.hand_paths import Gesture
 
 Numbers = Sequence[float]
 

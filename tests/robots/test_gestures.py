@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 from on_bench import bench
 
-from imitation.robots.gestures import Waypoints, pick_and_place, trigger, waypoints
+from imitation.robots.gestures import pick_and_place, trigger, waypoints
+from imitation.robots.hand_paths import Waypoints
 
 FIGURES = ("line", "circle", "square", "figure_eight")
 PERIOD = 4.0  # [s]
