@@ -8,7 +8,8 @@ import pytest
 from hydra.utils import instantiate
 from omegaconf import OmegaConf
 
-from imitation.analysis.fig3 import fig3a, fig3b
+from imitation.analysis.fig3a import fig3a
+from imitation.analysis.fig3b import fig3b
 from imitation.analysis.figure_style import save
 from imitation.analysis.joint_paths import Simulation, end_of, jumps, visits
 
