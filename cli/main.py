@@ -165,19 +165,20 @@ def recover(run: Recorded) -> None:
     raise typer.Exit(reading(run, lambda: recover_run(run)))
 
 
-@app.command()
+@app.command(context_settings={"allow_extra_args": True})
 def verify(
+    words: typer.Context,
     run: Recorded,
     with_: Annotated[
         list[str] | None,
-        typer.Option("--with", metavar="KEY=VALUE", help="What if: decide with this instead."),
+        typer.Option("--with", metavar="KEY=VALUE...", help="What if: decide with these instead."),
     ] = None,
 ) -> None:
     """Make every decision of a recording anew, from what was sensed, and compare."""
     from cli.reading import reading
-    from cli.verify import verify, what_if
+    from cli.verify import verify
 
-    raise typer.Exit(reading(run, lambda: what_if(run, with_) if with_ else verify(run)))
+    raise typer.Exit(reading(run, lambda: verify(run, with_ or [], words.args)))
 
 
 @app.command()

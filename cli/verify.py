@@ -27,7 +27,14 @@ WIDEST = 16  # of a value in a table [letters]
 Pairs = Iterable[tuple[StepTold | None, Sample | None]]
 
 
-def verify(run: Path) -> int:
+def verify(run: Path, asked: Sequence[str] = (), more: Sequence[str] = ()) -> int:
+    """As recorded, or with other parameters: `--with` takes one, and more may follow it."""
+    if more and not asked:
+        raise UserError(f"'{more[0]}' wants --with before it; type --with {' '.join(more)}")
+    return what_if(run, [*asked, *more]) if asked else as_recorded(run)
+
+
+def as_recorded(run: Path) -> int:
     """Compare a recording with what is decided anew; the exit code."""
     recording = Recording.open(run)
     breaks, found = broken(recording), Comparison(recording.topics)
@@ -54,7 +61,7 @@ def verify(run: Path) -> int:
 
 
 def what_if(run: Path, words: Sequence[str]) -> int:
-    """Decide anew with other parameters, record it, and say what would have been otherwise."""
+    """Decide anew with other parameters, record it, say what would differ; 1 if anything does."""
     recording = Recording.open(run)
     found = Comparison(recording.topics)
     with anew(recording, words) as decided, _second(recording, decided, words) as second:
@@ -64,7 +71,7 @@ def what_if(run: Path, words: Sequence[str]) -> int:
     show(f"what if: {' '.join(words)}", told, found)
     path = second.path
     Console(highlight=False, soft_wrap=True).print(f"files  {path}", markup=False)
-    return DONE
+    return NOT_TRUE if found.differing else DONE
 
 
 def compare(found: Comparison, decided: Anew, pairs: Pairs) -> None:

@@ -217,7 +217,7 @@ def test_what_if_tells_differences_and_records_them(imitate, reached, tmp_path):
     run = tmp_path / "run"
     shutil.copytree(reached, run)
     told = imitate("verify", str(run), "--with", "dynamics.beta=9", "--with", "dynamics.tau=0.2")
-    assert told.exit_code == 0, told.output
+    assert told.exit_code == 1, told.output
     assert "/joint_command/requested" in told.stdout and "/dynamics " not in told.stdout
     first, second = Recording.open(run), Recording.open(run / "what-if.mcap")
     assert second.whole and second.metadata["run"]["what_if"] == "dynamics.beta=9 dynamics.tau=0.2"
@@ -225,13 +225,14 @@ def test_what_if_tells_differences_and_records_them(imitate, reached, tmp_path):
         assert (first.digest()[topic] == second.digest()[topic]) is same
     # What if is a run like others: it verifies, and nothing is written over.
     assert imitate("verify", str(run / "what-if.mcap")).exit_code == 0
-    assert imitate("verify", str(run), "--with", "dynamics.beta=9").exit_code == 0
+    assert imitate("verify", str(run), "--with", "dynamics.beta=9").exit_code == 1
     assert (run / "what-if-2.mcap").is_file()
 
 
 def test_what_if_with_the_same_parameters_changes_nothing(imitate, reached, tmp_path):
     shutil.copytree(reached, tmp_path / "run")
     told = imitate("verify", "run", "--with", "controller=yuragi")
+    assert told.exit_code == 0, told.output
     assert "the same, bit for bit" in told.stdout
 
 
@@ -240,7 +241,7 @@ def test_what_if_goes_on_where_an_episode_would_last_longer_or_end_sooner(imitat
     shutil.copytree(reached, run)
     for limit, word in (("0.5", "goes on"), ("2", "is over")):
         told = imitate("verify", str(run), "--with", f"reach.limit={limit}")
-        assert told.exit_code == 0 and word in told.stdout, told.output
+        assert told.exit_code == 1 and word in told.stdout, told.output
 
 
 @pytest.mark.parametrize(
@@ -278,3 +279,11 @@ def test_nothing_that_a_recording_names_is_called_unless_we_know_it(imitate, rea
     result = imitate("verify", str(tmp_path / "bad.mcap"))
     assert result.exit_code == 2
     assert "os.system: no part of this program" in result.stderr
+
+
+def test_one_with_takes_several_parameters_and_none_stands_alone(imitate, reached, tmp_path):
+    shutil.copytree(reached, tmp_path / "run")
+    told = imitate("verify", "run", "--with", "dynamics.beta=9", "dynamics.tau=0.2")
+    assert "what if: dynamics.beta=9 dynamics.tau=0.2" in told.stdout, told.output
+    alone = imitate("verify", "run", "dynamics.beta=9")
+    assert alone.exit_code == 2 and "type --with dynamics.beta=9" in alone.stderr
