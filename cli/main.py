@@ -197,10 +197,13 @@ def explain(
 def twin(
     words: Annotated[
         list[str] | None,
-        typer.Argument(metavar="KEY=VALUE", help="Of the world, such as demonstrator=square."),
+        typer.Argument(metavar="KEY=VALUE", help="Such as robot=so101 demonstrator=square."),
     ] = None,
-    model: Annotated[str, typer.Option(help="Of the Katana: 400 or 450.")] = "400",
+    model: Annotated[str, typer.Option(help="Of the Katana: 300, 400 or 450.")] = "400",
     port: Annotated[int, typer.Option(help="TCP port of the arm; 0: a free one.")] = 5566,
+    arm_pty: Annotated[
+        Path, typer.Option(help="Serial port of an arm that has one, to make.")
+    ] = Path("arm"),
     pty: Annotated[Path, typer.Option(help="Serial port of the neck, to make.")] = Path("neck"),
     stream: Annotated[int, typer.Option(help="TCP port of the camera; 0: a free one.")] = 8090,
     watching: Annotated[
@@ -211,11 +214,11 @@ def twin(
         typer.Option(help="NAME[=WHICH][@START[-END]][xTIMES], in seconds; may be repeated."),
     ] = None,
 ) -> None:
-    """Be the paper's whole robot on this computer: arm, neck and camera."""
+    """Be a whole robot on this computer, the paper's by default: arm, neck and camera."""
     from cli.job import attempt
     from cli.twin import Asked, twin
 
-    asked = Asked(words or [], watching, model, port, pty, stream, fault or [])
+    asked = Asked(words or [], watching, model, port, arm_pty, pty, stream, fault or [])
     raise typer.Exit(attempt(lambda: twin(asked)))
 
 

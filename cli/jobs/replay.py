@@ -26,6 +26,10 @@ def main(cfg: DictConfig) -> int:
     return job("replay", cfg, replay_action)
 
 
+# A real can tells nobody whether it moves with the hand.
+GRASPED = {True: "yes", False: "no", None: "not known of a real can"}
+
+
 def replay_action(run: Run) -> Outcome:
     """Wait for a hand at one of the action's states, and do what follows."""
     stored, action = the_map(run), the_action(run)
@@ -64,7 +68,7 @@ def deferred_metrics(bench: Bench, learned: VisuoMotorMap, action: Action) -> De
     if not any(areas[1:]):
         raise UserError("the map has learned nothing where the action goes; learn a fuller one")
     times = [state.time for state in action.states]
-    return DeferredMetrics(learned.field, areas, times, bench.object_goal(action.states[-1].place))
+    return DeferredMetrics(learned, areas, times, bench.object_goal(action.states[-1].place))
 
 
 def outcome(metrics: dict[str, Any], states: int) -> Outcome:
@@ -77,7 +81,7 @@ def outcome(metrics: dict[str, Any], states: int) -> Outcome:
             ("in order", "yes" if metrics["order_correct"] else "no"),
             ("timing error", _largest(metrics["timing_error_s"])),
             ("clock error", _largest(metrics["clock_error_s"])),
-            ("grasped", "yes" if metrics["grasped"] else "no"),
+            ("grasped", GRASPED[metrics["grasped"]]),
             ("object to goal", _centimetres(metrics["object_error_m"])),
         ],
         next="imitate view {run}",

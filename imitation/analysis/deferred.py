@@ -6,11 +6,13 @@ from typing import Any
 
 import numpy as np
 
+from imitation.analysis.place_prediction import place_shown_at
 from imitation.analysis.visits import Visit
 from imitation.arrays import Array
-from imitation.robot import Truth
+from imitation.robot import Observation, Truth
 from imitation.sample import Sample
 from imitation.visual_field import Area, VisualField
+from imitation.visuo_motor_map import VisuoMotorMap
 
 PASSING = 0.3  # another learned state may be crossed for this long on the way [s]
 PLACED = 0.04  # an object is where the demonstrator put it when it stands this near [m]
@@ -88,13 +90,13 @@ class DeferredMetrics:
     """Follows a replay, sample by sample.
 
     Args:
-        visual_field: Of the map.
+        learned: The map in use.
         areas: The map's area of each state of the action; None where it learned nothing.
         times: When the demonstrator entered each state [s].
         goal: Where the demonstrator put the object, (3,) [m]; None without one.
     """
 
-    visual_field: VisualField
+    learned: VisuoMotorMap
     areas: Sequence[Area | None]
     times: Sequence[float]
     goal: Array | None
@@ -104,6 +106,7 @@ class DeferredMetrics:
     _hands: list[Array] = field(default_factory=list)
     _things: list[Array] = field(default_factory=list)
     _touching: list[bool] = field(default_factory=list)
+    _from_truth: bool = False
     _trigger: tuple[float, int] | None = None  # when [s], and which state was seen
     _ended: float = float("inf")
     _predicted: dict[int, float] = field(default_factory=dict)  # when, by state [s]
@@ -112,8 +115,7 @@ class DeferredMetrics:
         """Note one step and what was true around it."""
         time = sample.seen.time
         self._truths |= {truth.time_ns: truth for truth in truths}
-        if truth_now := self._truths.pop(sample.seen.time_ns, None):
-            self._note(time, truth_now, sample.seen.touching)
+        self._note(sample.seen, self._truths.pop(sample.seen.time_ns, None))
         for event in sample.events:
             state: Any = event.facts.get("state")
             if event.kind == "trigger" and self._trigger is None:
@@ -125,19 +127,25 @@ class DeferredMetrics:
             elif event.kind == "ended":
                 self._ended = min(self._ended, time)
 
-    def _note(self, time: float, truth: Truth, touching: bool) -> None:
+    def _note(self, seen: Observation, truth: Truth | None) -> None:
+        """A real arm's hand is where the map expects it of the sensed posture."""
         nowhere = np.full(3, np.nan)
-        self._times.append(time)
-        self._hands_px.append(truth.hand_px)
-        self._hands.append(truth.hand_m)
-        self._things.append(nowhere if truth.object_pose is None else truth.object_pose[:3])
-        self._touching.append(touching)
+        pose = truth.object_pose if truth else None
+        self._from_truth |= truth is not None
+        self._times.append(seen.time)
+        self._hands_px.append(
+            truth.hand_px if truth else place_shown_at(self.learned, seen.posture)
+        )
+        self._hands.append(truth.hand_m if truth else nowhere)
+        self._things.append(nowhere if pose is None else pose[:3])
+        self._touching.append(seen.touching)
 
     def result(self) -> dict[str, Any]:
         """What `metrics.json` says."""
         order, asked = self._order()
         start, end = (self._things[0], self._things[-1]) if self._things else (None, None)
         return {
+            "own_from": "truth" if self._from_truth else "map read at the posture",
             "triggered_at_s": self._trigger[0] if self._trigger else None,
             "triggered_by_state": self._trigger[1] if self._trigger else None,
             "states_asked": len(asked),
@@ -145,7 +153,7 @@ class DeferredMetrics:
             "order_correct": order.correct and bool(asked),
             "timing_error_s": self._timing_errors(order, asked),
             "clock_error_s": self._clock_errors(),
-            "grasped": self._grasped(),
+            "grasped": self._grasped() if self._from_truth else None,
             "object_start_m": _place(start),
             "object_end_m": _place(end),
             "object_goal_m": _place(self.goal),
@@ -165,7 +173,7 @@ class DeferredMetrics:
         known = [area for area in self.areas if area is not None]
         during = [i for i, time in enumerate(self._times) if begun <= time <= self._ended]
         times, hands = [self._times[i] for i in during], [self._hands_px[i] for i in during]
-        visits = visits_of(times, hands, known, self.visual_field)
+        visits = visits_of(times, hands, known, self.learned.field)
         return in_order(visits, [area for k in asked if (area := self.areas[k])]), asked
 
     def _timing_errors(self, order: Order, asked: Sequence[int]) -> list[float]:
@@ -198,7 +206,7 @@ def _apart(end: Array | None, goal: Array | None) -> float | None:
 def acts_done(metrics: dict[str, Any]) -> float:
     """Share of the target acts of a replay that were done: each state in order, grasp, put down."""
     placed = metrics["object_error_m"] is not None and metrics["object_error_m"] <= PLACED
-    done = metrics["states_replayed"] + metrics["grasped"] + placed
+    done = metrics["states_replayed"] + bool(metrics["grasped"]) + placed
     return float(done / (metrics["states_asked"] + 2)) if metrics["states_asked"] else 0.0
 
 

@@ -4,6 +4,9 @@ import time
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 
+import numpy as np
+
+from imitation.arrays import Array
 from imitation.robots.faults import Faults
 from imitation.robots.serving import LINE_FAULTS
 
@@ -20,6 +23,7 @@ LOWEST, HIGHEST, HOTTEST, TORQUE_ON, GOAL, SPEED = 9, 11, 13, 40, 42, 46
 POSITION, VELOCITY, TEMPERATURE, STATUS = 56, 58, 63, 65
 HOT, OVERLOADED = 4, 32  # bits of the status
 TURN = 4096  # steps
+STEP = 2 * np.pi / TURN  # [rad]
 UNLIMITED = 3073.0  # speed when none is asked for: 45 rpm [steps/s]
 
 
@@ -69,6 +73,7 @@ class ServoBusEmulator:
     faults: Faults = field(default_factory=Faults)
     speed: float = 1.0
     clock: Callable[[], float] = time.monotonic
+    sessions: int = 0  # how often somebody began to talk to them
     _waiting: bytes = b""
     _began: float | None = None
     _now: float = 0.0
@@ -89,6 +94,18 @@ class ServoBusEmulator:
         self._now = now
         return now
 
+    def posture(self) -> Array:
+        """Where all servos but the jaw's are (n,) [rad]."""
+        steps = [self.servos[one].position for one in self.ids[:-1]]
+        return (np.array(steps) - TURN / 2) * STEP
+
+    def opening(self) -> float:
+        """Of the jaw, the last servo's; the simulated world's stays closed."""
+        return 0.0
+
+    def feel(self, proximity: float, touching: bool) -> None:
+        """Nothing: such a jaw has no sensors."""
+
     def heard(self, data: bytes) -> Iterator[bytes]:
         """Replies to the packets that are complete by now."""
         if self._began is None:
@@ -104,6 +121,7 @@ class ServoBusEmulator:
                 yield from self._obey(whole[2], whole[4], whole[5:-1])
 
     def _obey(self, number: int, code: int, rest: bytes) -> Iterator[bytes]:
+        self.sessions += code in (READ, SYNC_READ) and rest[0] == MODEL  # what drivers ask first
         if code == SYNC_READ:
             for one in rest[2:]:
                 if one in self.servos:

@@ -3,6 +3,7 @@
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
+from typing import Protocol
 
 import cv2
 import numpy as np
@@ -12,8 +13,6 @@ from imitation.gaze import VisualSpace
 from imitation.robots.bullet.arm import BulletArm
 from imitation.robots.demonstrators import Demonstrator, Shown
 from imitation.robots.faults import Faults
-from imitation.robots.katana.emulated_arm import EmulatedArm
-from imitation.robots.katana.emulator import KatanaEmulator
 from imitation.robots.mjpeg import MjpegServer
 from imitation.robots.ssc32 import Servo
 from imitation.robots.ssc32_emulator import Ssc32Emulator
@@ -27,6 +26,21 @@ CAMERA_FAULTS = {
 }
 ATTENTION = 3.0  # how long the robot has rested when a demonstrator takes it to watch [s]
 TAG, COVER = (219, 10, 10), (158, 132, 102)  # colours of the tag and of what hides it, RGB
+
+
+class Emulated(Protocol):
+    """An emulated arm, as the world behind its wire knows it."""
+
+    sessions: int  # how often somebody began to talk to it
+
+    def posture(self) -> Array:
+        """Where its joints are, (n_joints,) [rad]."""
+
+    def opening(self) -> float:
+        """Of its gripper, 0 closed .. 1 open."""
+
+    def feel(self, proximity: float, touching: bool) -> None:
+        """What its gripper senses from now on: distance to a thing [m], and both fingers' touch."""
 
 
 @dataclass
@@ -49,7 +63,7 @@ class Twin:
     """
 
     arm: BulletArm
-    emulator: KatanaEmulator
+    emulator: Emulated
     board: Ssc32Emulator
     servos: Sequence[Servo]
     space: VisualSpace
@@ -78,20 +92,17 @@ class Twin:
 
     def begin(self) -> None:
         """Put the simulated arm where the emulated one is."""
-        self._followed = self._posture()
+        self._followed = self.emulator.posture()
         self.arm.reset(self._followed)
 
     def advance(self, now: float) -> None:
         """Have the world follow the devices, and show it at `now` [s]."""
-        posture, opening = (
-            self._posture(),
-            self.katana.model.opening(self.katana.motors[-1].counter),
-        )
+        posture, opening = self.emulator.posture(), self.emulator.opening()
         self._have_demonstrated(now, resting=bool((posture == self._followed).all()))
         self.arm.move((posture - self._followed) * self.rate, opening, 1 / self.rate)
         self._followed = posture
-        felt, sensors = self.arm.read(), self.katana.sensors
-        sensors.distance, sensors.pressed = felt.proximity, felt.touching
+        felt = self.arm.read()
+        self.emulator.feel(felt.proximity, felt.touching)
         if self.faults.at(now, "camera_gone"):
             return
         if not (self._shown and self.faults.at(now, "camera_frozen")):
@@ -111,19 +122,11 @@ class Twin:
         shown = Shown(None) if self._begun is None else self.demonstrator.at(now - self._begun)
         self.arm.scene.show(shown, self.demonstrator.hand)
 
-    @property
-    def katana(self) -> EmulatedArm:
-        """The arm behind the wire."""
-        return self.emulator.arm
-
     def gaze(self) -> Array:
         """Where the neck's servos turn the camera, (2,) [rad]."""
         pulses = self.board.pulses()
         angles = [one.angle(pulses.get(one.channel, one.centre)) for one in self.servos]
         return np.asarray(self.straight + np.array(angles))
-
-    def _posture(self) -> Array:
-        return self.katana.model.angles(np.array([one.position for one in self.katana.motors[:5]]))
 
     def _picture(self, now: float) -> Image:
         picture = self.arm.scene.photograph(self.space, self.eye, self.gaze())

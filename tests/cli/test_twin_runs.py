@@ -14,6 +14,12 @@ from imitation.recording.mcap_recording import Recording
 
 PROGRAM = [sys.executable, "-c", "from cli.main import main; main()"]
 SWIFT = ("robot.approach.share=1", "robot.arm.speed=[1.5,1.0,1.0,1.5,1.5]", "--yes")
+TWINS = {  # how each twin is started
+    "400": (),
+    "450": ("--model", "450"),
+    "300": ("--model", "300", "--arm-pty", "arm"),
+    "so101": ("robot=so101", "--arm-pty", "arm"),
+}
 
 
 @contextmanager
@@ -44,6 +50,12 @@ def events(folder: Path) -> dict[str, str]:
     return {message.name: message.msg for _, message in recording.messages("/events")}
 
 
+def grips(folder: Path) -> list[dict]:
+    """What the hand did in a replay."""
+    messages = Recording.open(folder / "run.mcap").messages("/events")
+    return [json.loads(one.msg[one.msg.index("{") :]) for _, one in messages if one.name == "grip"]
+
+
 def test_a_real_arm_moves_only_when_somebody_says_so(tmp_path):
     with twin(tmp_path) as there:
         asked = imitate(tmp_path, "learn-map", *there, "out=asked")
@@ -56,10 +68,18 @@ def test_a_real_arm_moves_only_when_somebody_says_so(tmp_path):
     assert json.loads((tmp_path / "dry" / "metrics.json").read_text())["steps"] > 3
 
 
+def test_an_so101_behind_its_bus_begins_to_learn(tmp_path):
+    with twin(tmp_path, *TWINS["so101"]) as there:
+        run = imitate(tmp_path, "learn-map", *there, *SWIFT, "learning.limit=4", "out=run")
+    assert run.returncode == 1, run.stderr  # so little time is not enough for all areas
+    assert "learned" in events(tmp_path / "run")
+
+
 @pytest.mark.slow
 @pytest.mark.timeout(600)
-def test_a_map_learned_through_the_wire_reaches(tmp_path):
-    with twin(tmp_path) as there:
+@pytest.mark.parametrize("kind", TWINS)
+def test_a_map_learned_through_the_wire_reaches(kind, tmp_path):
+    with twin(tmp_path, *TWINS[kind]) as there:
         imitate(tmp_path, "learn-map", *there, *SWIFT, "out=map")
         learned = json.loads((tmp_path / "map" / "metrics.json").read_text())
         assert learned["areas_learned"] >= 14
@@ -72,7 +92,7 @@ def test_a_map_learned_through_the_wire_reaches(tmp_path):
 
 @pytest.mark.slow
 @pytest.mark.timeout(600)
-def test_a_hand_before_the_twin_is_mimicked_and_its_action_learned(tmp_path):
+def test_a_hand_before_the_twin_is_mimicked_and_its_action_learned_and_replayed(tmp_path):
     with twin(tmp_path) as there:
         imitate(tmp_path, "learn-map", *there, *SWIFT, "out=map")
     with twin(tmp_path, "--watching", "mimic", "demonstrator=circle") as there:
@@ -86,6 +106,14 @@ def test_a_hand_before_the_twin_is_mimicked_and_its_action_learned(tmp_path):
         assert run.returncode == 0, run.stderr
     metrics = json.loads((tmp_path / "action" / "metrics.json").read_text())
     assert metrics["states"] >= 3
+    with twin(tmp_path, "--watching", "replay", "demonstrator=trigger") as there:
+        words = ("map=map", "action=action", "out=replay")
+        run = imitate(tmp_path, "replay", *words, *there, *SWIFT)
+        assert run.returncode == 0, run.stderr
+    metrics = json.loads((tmp_path / "replay" / "metrics.json").read_text())
+    assert metrics["order_correct"]
+    assert metrics["own_from"] == "map read at the posture"
+    assert "holding" in {one["hand"] for one in grips(tmp_path / "replay")}
 
 
 @pytest.mark.slow

@@ -67,13 +67,13 @@ def red(picture) -> np.ndarray:
 
 def test_the_simulated_arm_follows_the_emulated_one():
     with twin() as (one, _):
-        motor = one.katana.motors[0]
+        motor = one.emulator.arm.motors[0]
         for step in range(25):
             motor.position += 100
             one.advance(step / 25)
         posture, _ = one.arm.world.joint_state()
-        encoders = np.array([motor.position for motor in one.katana.motors[:5]])
-        assert posture == pytest.approx(one.katana.model.angles(encoders), abs=0.005)
+        encoders = np.array([motor.position for motor in one.emulator.arm.motors[:5]])
+        assert posture == pytest.approx(one.emulator.arm.model.angles(encoders), abs=0.005)
 
 
 def test_the_camera_shows_the_tag_where_it_truly_is():
@@ -99,7 +99,7 @@ def test_a_camera_may_show_black_nothing_new_or_nothing():
     with twin("camera_black@0-1", "camera_frozen@1-2", "camera_gone@2-3") as (one, pictures):
         one.advance(0.0)
         assert not pictures[-1].any()
-        one.katana.motors[0].position += 200
+        one.emulator.arm.motors[0].position += 200
         one.advance(1.0)
         assert not pictures[-1].any()
         one.advance(2.0)

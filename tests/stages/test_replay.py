@@ -7,6 +7,7 @@ from on_bench import lesson
 from cli.build import Bench
 from cli.deferred_runs import demonstrated, replayed
 from cli.experiments import composed
+from cli.jobs.replay import deferred_metrics
 from cli.replaying import replaying
 
 IDEAL = "robot=ideal"
@@ -146,6 +147,18 @@ def test_an_interrupted_replay_stops_the_arm_and_says_where(learned, action):
     assert [event.kind for event in last[0].events] == ["stopped"]
     assert "state 2 of 4" in last[0].events[0].sentence
     assert not last[-1].applied.sent.any()
+
+
+def test_a_replay_of_which_nobody_knows_the_truth_is_judged_by_the_map(learned, action):
+    bench = Bench(composed("replay", "map=given", "action=given", IDEAL, "~object"))
+    metrics = deferred_metrics(bench, learned, action)
+    for sample in replaying(bench, learned, action)[1]:
+        metrics.add(sample, [])
+    told = metrics.result()
+    assert told["own_from"] == "map read at the posture"
+    assert told["order_correct"]
+    assert told["grasped"] is None
+    assert told["object_error_m"] is None
 
 
 @pytest.fixture(scope="module")

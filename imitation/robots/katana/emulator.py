@@ -5,6 +5,9 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from threading import Lock
 
+import numpy as np
+
+from imitation.arrays import Array
 from imitation.robots.faults import Fault, Faults
 from imitation.robots.katana.answers import Answers
 from imitation.robots.katana.commands import motor_version
@@ -64,6 +67,18 @@ class KatanaEmulator:
             self.arm.advance_to(now)
             self._break(now)
         return now
+
+    def posture(self) -> Array:
+        """Where the joints are (5,) [rad]."""
+        return self.arm.model.angles(np.array([one.position for one in self.arm.motors[:5]]))
+
+    def opening(self) -> float:
+        """Of the gripper, 0 closed .. 1 open."""
+        return self.arm.model.opening(self.arm.motors[-1].counter)
+
+    def feel(self, proximity: float, touching: bool) -> None:
+        """What the gripper's sensors have before them, and whether both fingers touch it."""
+        self.arm.sensors.distance, self.arm.sensors.pressed = proximity, touching
 
     def heard(self, data: bytes) -> Iterator[bytes]:
         """Replies to the requests that are complete by now."""
