@@ -17,7 +17,6 @@ SWIFT = ("robot.approach.share=1", "robot.arm.speed=[1.5,1.0,1.0,1.5,1.5]", "--y
 TWINS = {  # how each twin is started
     "400": (),
     "450": ("--model", "450"),
-    "300": ("--model", "300", "--arm-pty", "arm"),
     "so101": ("robot=so101", "--arm-pty", "arm"),
 }
 
