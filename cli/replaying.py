@@ -5,7 +5,7 @@ from collections.abc import Iterator, Mapping
 import numpy as np
 
 from cli.build import Bench, generator, made_of
-from imitation.arrivals import Arrivals
+from imitation.arrivals import Arrivals, Noticing
 from imitation.enacting import Arriving, Detours, Enactor
 from imitation.grasp import GraspReflex
 from imitation.precision import Precision, ToTheArea, ToTheSeenPlace
@@ -15,6 +15,7 @@ from imitation.sample import Sample
 from imitation.sequence import Replay
 from imitation.stages.exploring import Wandering, explore
 from imitation.stages.replay import Ending, replay
+from imitation.visual_states import Resting
 from imitation.visuo_motor_map import VisuoMotorMap
 
 PRECISIONS: Mapping[str, type[Precision]] = {"area": ToTheArea, "seen": ToTheSeenPlace}
@@ -28,7 +29,9 @@ def replaying(
     sequence = bench.empty_sequence()
     for state in action.states:
         sequence.learn(state.area, state.time)
-    loop, arrivals = Replay(sequence, robot.period), Arrivals(**cfg["arrivals"])
+    resting, noticing = Resting(**cfg["states"]), Noticing(**cfg["arrivals"])
+    arrivals = Arrivals(resting, noticing, field.reachable)
+    loop = Replay(sequence, robot.period)
     places = [state.place for state in action.states]
     rng = generator(cfg["seed"], "sequence")
     recall = Recall(places, loop, arrivals, field, cfg["sequence"]["noise"], rng)

@@ -296,7 +296,7 @@ class VisualStates(Section):
 
     dwell: Positive
     still: Positive
-    hysteresis: Share
+    hysteresis: Annotated[float, Within(ge=0, lt=1)]
     lost: NotNegative
 
 
@@ -371,8 +371,8 @@ class Arrivals(Section):
 
     appearing: Annotated[float, Within(gt=0, le=1)]
     leaving: Annotated[float, Within(gt=0, le=1)]
-    dwell: NotNegative
     absence: NotNegative
+    one_hand: Positive
 
 
 class Arriving(Section):
@@ -404,6 +404,7 @@ class Replay(Common):
     action: Place
     aim: Named
     sequence: Sequence
+    states: VisualStates
     replay: Replaying
     arrivals: Arrivals
     arriving: Arriving

@@ -25,6 +25,7 @@ class Percept:
     time_ns: int  # when the frame was captured
     hand: Array | None  # where the hand is seen, (2,) [px of visual space]; None: not seen
     visual_input: Array  # I, activity of the visual neurons, (rows, columns)
+    places: Array  # where what is seen in each area lies, (rows, columns, 2) [px]; nan: nothing is
 
 
 @dataclass(frozen=True)
@@ -48,4 +49,5 @@ class Perception:
         places = places[np.isfinite(places[:, 0])] + observation.place_noise
         counting = places if attended is None else places[self.field.inside(attended, places)]
         hand = counting.sum(axis=0) / len(counting) if len(counting) else None
-        return Percept(observation.frame_time_ns, hand, self.field.activity(places))
+        activity, means = self.field.activity(places), self.field.mean_places(places)
+        return Percept(observation.frame_time_ns, hand, activity, means)

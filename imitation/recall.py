@@ -7,6 +7,8 @@ import numpy as np
 
 from imitation.arrays import Array
 from imitation.arrivals import Arrivals
+from imitation.perception import Percept
+from imitation.robot import SECOND
 from imitation.sample import Event
 from imitation.sequence import Replay
 from imitation.visual_field import Area, VisualField
@@ -65,14 +67,10 @@ class Recall:
         row, column = self.areas[self.state] or ("?", "?")
         return f"state {self.state + 1} of {len(self.places)}, area [{row}, {column}]"
 
-    def notice(self, time: float, visual_input: Array) -> list[Event]:
-        """See which hands have arrived; one at a state triggers the action, unless it plays.
-
-        Args:
-            time: When the frame was captured [s].
-            visual_input: I, (rows, columns).
-        """
-        arrived = self.arrivals.notice(time, visual_input)
+    def notice(self, percept: Percept) -> list[Event]:
+        """See which hands have arrived; one at a state triggers the action, unless it plays."""
+        time = percept.time_ns / SECOND
+        arrived = self.arrivals.notice(time, percept.visual_input, percept.places)
         state = None if self.state is not None else self._recognised(arrived)
         events = [_noticed(area, since) for area, since in arrived.items()]
         if state is None:

@@ -59,12 +59,13 @@ class VisualField:
 
     def activity(self, places: Array) -> Array:
         """Visual input I: each area's share of the hand's pixels (n, 2) [px]; 0 when unseen."""
-        if not len(places):
-            return np.zeros(self.shape)
-        rows, columns = self._framed(places)
-        framed = (self.rows + 2, self.columns + 3)
-        counts = np.bincount(rows * framed[1] + columns, minlength=framed[0] * framed[1])
-        return np.asarray(counts.reshape(framed)[1:-1, 1:-1] / len(places))
+        return self._summed(places, None) / max(len(places), 1)
+
+    def mean_places(self, places: Array) -> Array:
+        """Mean of the `places` (n, 2) [px] in each area, (rows, columns, 2); nan in empty ones."""
+        x, y = (self._summed(places, axis) for axis in places.T)
+        count = self._summed(places, None)[..., None]
+        return np.where(count > 0, np.stack((x, y), axis=-1) / np.maximum(count, 1), np.nan)
 
     def inside(self, areas: Mask, places: Array) -> Mask:
         """Which `places` (n, 2) [px] lie in one of `areas` (rows, columns), (n,)."""
@@ -93,6 +94,13 @@ class VisualField:
         """Selection V: 1 for every area whose centre is nearer than `radius` [px] to `place`."""
         near = np.linalg.norm(self.centres - place, axis=-1) < radius
         return np.asarray(near, dtype=np.float64)
+
+    def _summed(self, places: Array, weights: Array | None) -> Array:
+        """Sum of the weights of `places` (n, 2) [px] in each area; None: each weighs 1."""
+        rows, columns = self._framed(places)
+        framed = (self.rows + 2, self.columns + 3)
+        sums = np.bincount(rows * framed[1] + columns, weights, framed[0] * framed[1])
+        return np.asarray(sums.reshape(framed)[1:-1, 1:-1])
 
     def _framed(self, places: Array) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
         """Row and column of each place, counted from 1: those outside are in the frame around."""

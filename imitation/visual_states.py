@@ -28,6 +28,13 @@ class Resting:
     lost: float  # a hand unseen for longer has left [s]
 
 
+def middle_of_rest(places: Array, still: float) -> Array | None:
+    """The middle of `places` (n, 2) [px]; None when one lies farther than `still` from it."""
+    middle = np.median(places, axis=0)
+    far = np.linalg.norm(places - middle, axis=1).max()
+    return None if far > still else np.asarray(middle)
+
+
 class VisualStates:
     """Watches a hand and tells the states it comes through, each as soon as it is one.
 
@@ -77,8 +84,8 @@ class VisualStates:
         if self._area is None or time - self._since < self.resting.dwell:
             return None
         places = np.array([place for _, place in self._seen])
-        middle = np.median(places, axis=0)
-        if np.linalg.norm(places - middle, axis=1).max() > self.resting.still:
+        middle = middle_of_rest(places, self.resting.still)
+        if middle is None:
             return None
         if self.states:
             last = self.states[-1]

@@ -3,10 +3,12 @@
 import numpy as np
 import pytest
 
-from imitation.arrivals import Arrivals
+from imitation.arrivals import Arrivals, Noticing
+from imitation.perception import Percept
 from imitation.recall import Recall
 from imitation.sequence import Replay, TimeCells, TimedSequence
 from imitation.visual_field import VisualField
+from imitation.visual_states import Resting
 
 FIELD = VisualField("right_4x4", (160, 120), 4, 4, 40.0)
 TICK = 0.04  # [s]
@@ -18,7 +20,9 @@ def recall(places=PLACES) -> Recall:
     sequence = TimedSequence(TimeCells(0.2, 20.0, 20, 0.35), context=1, match=0.85)
     for place, time in zip(places, TIMES, strict=True):
         sequence.learn(FIELD.area_of(place), time)
-    arrivals = Arrivals(appearing=0.2, leaving=0.1, dwell=0.3, absence=0.5)
+    resting = Resting(dwell=0.3, still=4.0, hysteresis=0.3, lost=0.2)
+    noticing = Noticing(appearing=0.2, leaving=0.1, absence=0.5, one_hand=20.0)
+    arrivals = Arrivals(resting, noticing, FIELD.reachable)
     rng = np.random.default_rng(0)
     return Recall(places, Replay(sequence, TICK), arrivals, FIELD, noise=0.0, rng=rng)
 
@@ -33,8 +37,9 @@ class Scene:
         """Kinds of what happens while `hands` are at places [px] for `seconds`."""
         before = len(self.events)
         for _ in range(round(seconds / TICK)):
-            seen = FIELD.activity(np.array(hands).reshape(-1, 2))
-            told = self.recall.notice(self.time, seen)
+            seen = np.array(hands).reshape(-1, 2)
+            activity, places = FIELD.activity(seen), FIELD.mean_places(seen)
+            told = self.recall.notice(Percept(round(self.time * 1e9), None, activity, places))
             predicted = self.recall.predict(self.time)
             told += [predicted] if predicted else []
             self.events += [(self.time, event) for event in told if event.kind != "noticed"]
@@ -74,8 +79,12 @@ def test_hands_anywhere_else_trigger_nothing():
         assert triggered == ((row, column) in states)
 
 
-def test_a_hand_that_was_there_from_the_start_triggers_nothing():
+def test_within_reach_a_hand_that_was_there_from_the_start_triggers_nothing():
     assert Scene().shows(10.0, PLACES[1]) == []
+
+
+def test_a_hand_that_was_there_from_the_start_triggers_where_the_arm_cannot_be():
+    assert Scene().shows(10.0, PLACES[0])[0] == "trigger"
 
 
 def test_while_the_action_plays_no_hand_triggers():

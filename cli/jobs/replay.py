@@ -92,8 +92,8 @@ def outcome(metrics: dict[str, Any], states: int) -> Outcome:
 def _complaint(metrics: dict[str, Any]) -> str | None:
     if metrics["triggered_at_s"] is None:
         return (
-            "nothing triggered the action: no hand came to a state that another follows, and "
-            "stayed there; one that was there from the start is passed over"
+            "nothing triggered the action: no hand came to rest in the area of a state that "
+            "another follows; within the arm's reach, one there from the start may be its own"
         )
     if not metrics["order_correct"]:
         done, asked = metrics["states_replayed"], metrics["states_asked"]

@@ -5,13 +5,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from imitation.arrays import Mask
 from imitation.deciding import drawn_by, no_attractor
 from imitation.dynamics import Dynamics
 from imitation.enacting import Enactor, Phase
 from imitation.grasp import Hand
 from imitation.perception import Perception
 from imitation.recall import Recall
-from imitation.robot import SECOND, Command, Observation, Robot
+from imitation.robot import Command, Observation, Robot
 from imitation.sample import Event, Sample
 
 
@@ -39,8 +40,8 @@ def replay(
     seen = robot.reset(enactor.rest)
     until, latest = seen.time + ending.patience, seen.time + ending.limit
     while seen.time <= (until if recall.state is None else latest):
-        percept = perception.perceive(seen, enactor.attended & ~recall.staying)
-        events = recall.notice(percept.time_ns / SECOND, percept.visual_input)
+        percept = perception.perceive(seen, attended(recall, enactor))
+        events = recall.notice(percept)
         if enactor.phase is Phase.RESTING and recall.coming is not None:
             enactor.make_ready(recall.coming)
         if predicted := recall.predict(seen.time):
@@ -64,6 +65,11 @@ def replay(
             yield from _stopped(robot, perception, sensed, dynamics, recall)
             raise
         seen = sensed
+
+
+def attended(recall: Recall, enactor: Enactor) -> Mask | None:
+    """Areas that a hand counts in, (rows, columns): all (None) until an action plays."""
+    return None if recall.state is None else enactor.attended & ~recall.staying
 
 
 def _told(before: tuple[Phase, Hand], enactor: Enactor, recall: Recall) -> Iterator[Event]:

@@ -53,5 +53,5 @@ def seen_at(step: int, posture) -> Observation:
 def hand_at(step: int, place) -> Percept:
     """The hand seen at `place` [px] in the frame of a step; None: not seen."""
     hand = None if place is None else np.asarray(place, dtype=float)
-    activity = FIELD.activity(np.empty((0, 2)) if hand is None else hand[None])
-    return Percept(step * 40_000_000, hand, activity)
+    seen = np.empty((0, 2)) if hand is None else hand[None]
+    return Percept(step * 40_000_000, hand, FIELD.activity(seen), FIELD.mean_places(seen))
