@@ -117,6 +117,7 @@ class Bench:
         """The arm; a real one is asked who it is, nothing moves."""
         beside = {"period": self.period_ns / SECOND, "thing": self.thing}
         arm: Arm = make_offered(self.cfg["robot"]["arm"], beside)
+        arm = self._spoilt("arm", arm, simulated=not arm.live)
         return DryRun(arm) if self.cfg["dry_run"] else arm
 
     @cached_property
@@ -135,7 +136,20 @@ class Bench:
         camera: Camera = make_offered(node, offered)
         if (neck := self.cfg.get("neck")) and not self.cfg["dry_run"]:
             camera = make(neck, camera=camera, gaze=self.cfg["camera"]["gaze"])
-        return camera
+        spoilt: Camera = self._spoilt("camera", camera, simulated="demonstrator" in asked_by(node))
+        return spoilt
+
+    def _spoilt(self, name: str, part: Any, simulated: bool) -> Any:
+        """`part` with the fault that is asked for, if it is one of this part."""
+        fault = self.cfg["fault"]
+        if name not in asked_by(fault):
+            return part
+        if not simulated:
+            raise ValueError(
+                f"fault={fault['name']}: only a simulated {name} can be spoilt; an emulated device "
+                "and the twin take --fault NAME"
+            )
+        return make(fault, **{name: part})
 
     def close(self) -> None:
         """Stop the arm and release the devices that were made; harmless when repeated."""

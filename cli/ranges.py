@@ -1,6 +1,6 @@
 """What the parameters of a `_target_` may hold, by section and parameter."""
 
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, get_type_hints
 
 from pydantic import Field as Within
 
@@ -75,6 +75,15 @@ class Servo(Section):
     upper: Pulse
 
 
+class Watching(Section):
+    """`fault.watch`, and the same of a real camera."""
+
+    stale: Positive
+    frozen: Positive | None
+    dark: Annotated[float, Within(ge=0, le=255)]
+    lost: Positive
+
+
 class Gripper(Section):
     """`robot.arm.gripper`."""
 
@@ -100,9 +109,7 @@ RANGES: dict[str, dict[str, Any]] = {
         "device": Place,
         "start": NotNegative,
         "end": Positive | None,
-        "stale": Positive,
-        "frozen": Positive | None,
-        "lost": Positive,
+        **get_type_hints(Watching, include_extras=True),
         "aspect": Literal["crop", "fit"],
         "mirror": bool,
         "quality": Annotated[int, Within(ge=1, le=100)],
@@ -162,6 +169,14 @@ RANGES: dict[str, dict[str, Any]] = {
         "switch": NotNegative,
         "deviation": float,
         "onset": Positive,
+    },
+    "fault": {
+        "at": NotNegative,
+        "lasts": Positive | None,
+        "joint": Count,
+        "following": Positive,
+        "overdue": Positive,
+        "watch": Watching,
     },
     "neck": {
         "baud": Literal[2400, 9600, 38400, 115200],

@@ -195,6 +195,7 @@ class Common(Section):
     vision: Target
     dynamics: Dynamics
     demonstrator: Demonstrator
+    fault: Target
     object: Object | None = None  # what a command without it does not take
 
 

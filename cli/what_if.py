@@ -12,7 +12,7 @@ from cli.keys import groups_of
 
 # What was sensed cannot be otherwise.
 SENSED = (
-    *("camera", "robot", "period", "demonstrator", "object"),
+    *("camera", "robot", "period", "demonstrator", "object", "fault"),
     *("out", "recording", "map", "action"),
 )
 
@@ -28,7 +28,7 @@ def replaced(command: str, cfg: Config, words: Sequence[str]) -> Config:
         key, equals, value = word.partition("=")
         if not equals:
             raise UserError(f"expected KEY=VALUE, got {word}; type for instance dynamics.beta=2")
-        if key in SENSED or key.startswith("camera."):
+        if key in SENSED or key.startswith(("camera.", "fault.")):
             raise UserError(f"--with {word}: {key} made the senses, which stay as they were")
         if key in groups_of(command):
             new[key] = _chosen(command, key, value)

@@ -1,4 +1,4 @@
-"""What goes wrong with an emulated device, and when."""
+"""What goes wrong with an emulated or a simulated device, and when."""
 
 import re
 from collections.abc import Mapping, Sequence
@@ -35,6 +35,15 @@ def read_fault(written: str, known: Mapping[str, str]) -> Fault:
     start, end = float(match["start"] or 0), float(match["end"] or "inf")
     times = float(match["times"] or "inf")
     return Fault(match["name"], int(match["which"] or 0), start, end, times)
+
+
+def nothing(name: str) -> None:
+    """No fault."""
+
+
+def lasting(name: str, at: float, lasts: float | None) -> Fault:
+    """A fault of a whole device from `at` [s] on, for so long [s]; None: for good."""
+    return Fault(name, 0, at, float("inf") if lasts is None else at + lasts, float("inf"))
 
 
 @dataclass(frozen=True)

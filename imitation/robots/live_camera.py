@@ -9,9 +9,10 @@ import numpy as np
 from imitation.arrays import Array
 from imitation.device import DeviceError
 from imitation.gaze import VisualSpace
-from imitation.robot import SECOND, Shot
+from imitation.robot import Shot
 from imitation.robots.frame_watch import FrameWatch, Taken
 from imitation.robots.opencv_camera import Development
+from imitation.robots.vision_watch import VisionWatch
 
 
 class LiveCamera:
@@ -24,6 +25,7 @@ class LiveCamera:
         device: A number, a device, a URL or a film.
         stale: A newest frame older than this is trouble [s].
         frozen: So are frames that have been equal for longer than this [s]; None: never.
+        dark: So is one whose mean brightness is below this [0..255].
         lost: A camera that delivers nothing for this long has failed [s].
         aspect: What becomes of pictures of another shape: crop or fit.
         mirror: Whether left and right change places.
@@ -43,6 +45,7 @@ class LiveCamera:
         device: str | int,
         stale: float,
         frozen: float | None,
+        dark: float,
         lost: float,
         aspect: str,
         mirror: bool,
@@ -50,8 +53,7 @@ class LiveCamera:
     ) -> None:
         self._space, self._eye, self._device = space, np.asarray(eye), device
         self._develop = Development(space.size, reference, aspect, mirror, quality)
-        self._stale_ns, self._lost = round(stale * SECOND), lost
-        self._frozen_ns = None if frozen is None else round(frozen * SECOND)
+        self._fit, self._lost = VisionWatch(stale, frozen, dark, lost), lost
         self._start_ns = 0  # when the run began, on the wall's clock
         self._watch = FrameWatch(device, self._develop, lost)
 
@@ -78,7 +80,7 @@ class LiveCamera:
             *skipped, self._newest = map(self._shot, taken)
             self._equal_since_ns = taken[-1].since_ns - self._start_ns
             return replace(self._newest, skipped=tuple(skipped), trouble=self._trouble(time_ns))
-        if time_ns - self._newest.time_ns > self._lost * SECOND:
+        if self._fit.is_lost(time_ns - self._newest.time_ns):
             raise self._failed()
         return replace(self._newest, trouble=self._trouble(time_ns), ended=ended)
 
@@ -94,11 +96,8 @@ class LiveCamera:
         return self._develop.shot(taken.jpeg, taken.time_ns - self._start_ns)
 
     def _trouble(self, time_ns: int) -> str | None:
-        if time_ns - self._newest.time_ns > self._stale_ns:
-            return "stale vision"
-        if self._frozen_ns is not None and time_ns - self._equal_since_ns > self._frozen_ns:
-            return "frozen vision"
-        return None
+        newest, equal_ns = self._newest, time_ns - self._equal_since_ns
+        return self._fit.trouble(newest.frame, time_ns - newest.time_ns, equal_ns)
 
     def _failed(self) -> DeviceError:
         return DeviceError(

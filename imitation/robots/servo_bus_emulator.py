@@ -10,11 +10,13 @@ from imitation.arrays import Array
 from imitation.robots.faults import Faults
 from imitation.robots.serving import LINE_FAULTS
 
-FAULTS = LINE_FAULTS | {
+SERVO_FAULTS = {
     "stuck_servo": "servo WHICH does not move",
+    "stuck_encoder": "servo WHICH says for ever that it is where it was",
     "hot_servo": "servo WHICH is over its temperature",
     "overloaded_servo": "servo WHICH is overloaded",
 }
+FAULTS = LINE_FAULTS | SERVO_FAULTS
 HEADER = b"\xff\xff"
 PING, READ, WRITE, SYNC_READ, SYNC_WRITE = 1, 2, 3, 0x82, 0x83
 EVERYONE = 0xFE
@@ -47,15 +49,16 @@ class EmulatedServo:
         """A register of two bytes."""
         return int.from_bytes(self.table[address : address + 2], "little")
 
-    def go_on(self, seconds: float, stuck: bool) -> None:
-        """Move towards the goal for so long."""
+    def go_on(self, seconds: float, stuck: bool, says_so: bool) -> None:
+        """Move towards the goal for so long, unless `stuck`, and tell it when it `says_so`."""
         before = self.position
         if self.table[TORQUE_ON] and not stuck:
             goal = min(max(self.get(GOAL), self.get(LOWEST)), self.get(HIGHEST))
             most = (self.get(SPEED) or UNLIMITED) * seconds
             self.position += min(max(goal - before, -most), most)
-        self.put(POSITION, round(self.position))
-        self.put(VELOCITY, round((self.position - before) / seconds) if seconds else 0)
+        if says_so:
+            self.put(POSITION, round(self.position))
+        self.put(VELOCITY, round((self.position - before) / seconds) if seconds and says_so else 0)
 
 
 @dataclass
@@ -87,8 +90,8 @@ class ServoBusEmulator:
             return 0.0
         now = (self.clock() - self._began) * self.speed
         for number, servo in self.servos.items():
-            servo.go_on(now - self._now, self._has("stuck_servo", number, now))
-            hot, over = (self._has(name, number, now) for name in ("hot_servo", "overloaded_servo"))
+            stuck, mute, hot, over = (self._has(name, number, now) for name in SERVO_FAULTS)
+            servo.go_on(now - self._now, stuck, says_so=not mute)
             servo.table[TEMPERATURE] = 80 if hot else 30
             servo.table[STATUS] = HOT * hot | OVERLOADED * over
         self._now = now

@@ -14,6 +14,7 @@ from imitation.robots.bullet.arm import BulletArm
 from imitation.robots.demonstrators import Demonstrator, Shown
 from imitation.robots.faults import Faults
 from imitation.robots.mjpeg import MjpegServer
+from imitation.robots.spoilt_pictures import SPOILT
 from imitation.robots.ssc32 import Servo
 from imitation.robots.ssc32_emulator import Ssc32Emulator
 
@@ -25,7 +26,6 @@ CAMERA_FAULTS = {
     "two_tags": "a second thing looks like the tag",
 }
 ATTENTION = 3.0  # how long the robot has rested when a demonstrator takes it to watch [s]
-TAG, COVER = (219, 10, 10), (158, 132, 102)  # colours of the tag and of what hides it, RGB
 
 
 class Emulated(Protocol):
@@ -130,15 +130,9 @@ class Twin:
 
     def _picture(self, now: float) -> Image:
         picture = self.arm.scene.photograph(self.space, self.eye, self.gaze())
-        red, green, blue = TAG
-        if self.faults.at(now, "camera_black"):
-            picture[:] = 0
-        if self.faults.at(now, "tag_lost"):
-            looks_red = (picture[..., 0] > red / 2) & (picture[..., 1:] < red / 2).all(axis=2)
-            picture[looks_red] = COVER
-        if self.faults.at(now, "two_tags"):
-            width, height = self.space.size
-            cv2.circle(picture, (width // 2, height // 4), 6, (red, green, blue), -1)
+        for name, spoil in SPOILT.items():
+            if self.faults.at(now, name):
+                picture = spoil(picture)
         return picture
 
     def _jpeg(self, picture: Image) -> bytes:

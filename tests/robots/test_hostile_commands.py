@@ -24,8 +24,10 @@ STEPS = {
     "kuka_sim": (300, 50_000),
     "so101_sim": (500, 100_000),
 }
-# In an engine the arm is a little elsewhere than its commands should have led it [rad].
+# In an engine the arm is a little elsewhere than its commands should have led it [rad]; the weak
+# motors of an SO-101 may leave it further behind, and it is stopped at a limit all the same.
 IN_AN_ENGINE, ELSEWHERE = 1.1, 0.005
+HARDEST = {"ideal": EARLIER, "so101_sim": AT_ONCE}
 
 
 class Witness:
@@ -121,15 +123,11 @@ def troubled(parts: Bench, arm: Arm) -> tuple[Robot, Witness]:
     return Robot(witness, camera, parts.guard(arm.body), home, parts.period_ns), witness
 
 
-def in_its_engine(body: str) -> float:
-    return EARLIER if body == "ideal" else IN_AN_ENGINE
-
-
 @pytest.mark.parametrize("body", STEPS)
 def test_nothing_beyond_a_limit_reaches_a_simulated_arm(body):
     parts = bench("learn-map", f"robot={body}")
     robot, witness = troubled(parts, parts.robot.arm)
-    ride(robot, witness, STEPS[body][0], seed=7, earlier=in_its_engine(body))
+    ride(robot, witness, STEPS[body][0], seed=7, earlier=HARDEST.get(body, IN_AN_ENGINE))
     robot.close()
 
 
@@ -139,7 +137,7 @@ def test_nothing_beyond_a_limit_reaches_a_simulated_arm(body):
 def test_nothing_beyond_a_limit_reaches_a_simulated_arm_in_a_million_steps(body):
     parts = bench("learn-map", f"robot={body}")
     robot, witness = troubled(parts, parts.robot.arm)
-    ride(robot, witness, STEPS[body][1], seed=8, earlier=in_its_engine(body))
+    ride(robot, witness, STEPS[body][1], seed=8, earlier=HARDEST.get(body, IN_AN_ENGINE))
     robot.close()
 
 

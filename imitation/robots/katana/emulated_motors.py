@@ -52,6 +52,7 @@ class EmulatedMotor:
     speed: int = 30  # limit [encoders / tick]
     acceleration: int = 1  # [encoders / tick^2]
     stuck: bool = False
+    stuck_at: int | None = None  # what the counter says wherever it is
     thing: int | None = None  # what the counter cannot get below
     target: float = 0.0  # true
     spline: deque[Segment] = field(default_factory=deque)
@@ -64,6 +65,8 @@ class EmulatedMotor:
     @property
     def counter(self) -> int:
         """What the encoder counter says, 16 bits with sign."""
+        if self.stuck_at is not None:
+            return self.stuck_at
         return (round(self.position) + self.shift + 0x8000) % 0x10000 - 0x8000
 
     @counter.setter

@@ -26,7 +26,8 @@ FAULTS = LINE_FAULTS | {
     "error_flag": "each request is refused (400 and 450)",
     "crashed_motor": "motor WHICH (1) collides: status 40, it moves no more until unblocked",
     "stuck_motor": "motor WHICH (1) does not move and does not say so",
-    "stuck_sensor": "the sensors say the same for ever",
+    "stuck_encoder": "the encoder of motor WHICH (1) says the same for ever",
+    "stuck_sensor": "the gripper's sensors say the same for ever",
     "uncalibrated": "the arm was just switched on",
 }
 FIRST = motor_version(1)  # what every driver asks first
@@ -142,10 +143,15 @@ class KatanaEmulator:
 
     def _break(self, now: float) -> None:
         """What goes wrong with the motors and sensors at `now` [s]."""
-        stuck, crashed = (self.faults.at(now, name) for name in ("stuck_motor", "crashed_motor"))
+        crashed = self.faults.at(now, "crashed_motor")
         for number, motor in enumerate(self.arm.motors, 1):
-            motor.stuck = stuck is not None and number == max(stuck.which, 1)
+            motor.stuck = self._has("stuck_motor", number, now)
+            motor.stuck_at = motor.counter if self._has("stuck_encoder", number, now) else None
         self.arm.sensors.frozen = self.faults.at(now, "stuck_sensor") is not None
         if crashed and crashed not in self._crashed:
             self._crashed.append(crashed)
             self.arm.crash(max(crashed.which, 1))
+
+    def _has(self, fault: str, number: int, now: float) -> bool:
+        found = self.faults.at(now, fault)
+        return found is not None and number == max(found.which, 1)

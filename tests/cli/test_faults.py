@@ -1,0 +1,142 @@
+"""Faults have defined answers: docs/hardware.md says them, whole runs in simulation show them."""
+
+import re
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from cli.emulate import DEVICES
+from cli.keys import groups
+from cli.twin import NECK_FAULTS
+from cli.verify import verify
+from imitation.recording import messages
+from imitation.recording.mcap_recording import Recording
+from imitation.recording.recorded_steps import steps_told
+from imitation.robots.twin import CAMERA_FAULTS
+
+PAGE = (Path(__file__).parents[2] / "docs" / "hardware.md").read_text()
+FAULTS = sorted(set(groups()["fault"]) - {"none"})
+EMULATED = set(CAMERA_FAULTS | NECK_FAULTS).union(*DEVICES.values()) - {"reset"}
+SOON_OVER = "0.4"  # [s]
+
+
+@dataclass(frozen=True)
+class Answer:
+    """A row of the table."""
+
+    simulated: list[str]
+    emulated: list[str]
+    event: str
+    why: str  # the guard's reason
+    soon_over: int  # exit codes
+    for_good: int
+
+
+def _answers() -> list[Answer]:
+    table = PAGE.split("| fault | `fault=`")[1].split("\n\n")[0]
+    found = []
+    for line in table.splitlines()[2:]:
+        _, simulated, emulated, _, event, exits = (
+            one.strip() for one in line.strip("|").split("|")
+        )
+        kind, _, why = event.replace("`", "").partition(": ")
+        first, _, last = exits.partition(", ")
+        names = (re.findall(r"`(\w+)", cell) for cell in (simulated, emulated))
+        found.append(Answer(*names, kind, why, int(first), int(last or first)))
+    return found
+
+
+ANSWERS = _answers()
+
+
+def answer_to(fault: str) -> Answer:
+    (answer,) = (one for one in ANSWERS if fault in one.simulated)
+    return answer
+
+
+def run(imitate, learned, fault: str, lasts: str) -> tuple[int, Recording]:
+    """Reach while something goes wrong."""
+    words = ["fault.at=0.2", f"fault.lasts={lasts}", "reach.limit=3", "seed=3", "out=run"]
+    words += ["fault.watch.lost=1.5"] if "camera" in fault else []
+    result = imitate("reach", "robot=ideal", f"map={learned}", f"fault={fault}", *words)
+    assert "Traceback" not in result.stderr
+    if result.exit_code == 3:  # the fixture verifies the others
+        assert verify(imitate.folder / "run") == 0
+    return result.exit_code, Recording.open(imitate.folder / "run")
+
+
+def events(recording: Recording) -> dict[str, list[str]]:
+    """What happened, by its kind."""
+    told: dict[str, list[str]] = {}
+    for _, one in recording.messages("/events"):
+        told.setdefault(one.name, []).append(messages.split_log(one)[0])
+    return told
+
+
+def test_the_table_has_a_row_for_every_fault_and_names_no_other():
+    for fault in FAULTS:
+        answer_to(fault)
+    assert {name for one in ANSWERS for name in one.simulated} == set(FAULTS)
+    assert {name for one in ANSWERS for name in one.emulated} == EMULATED
+
+
+@pytest.mark.parametrize("fault", FAULTS)
+def test_a_fault_that_stays_ends_as_the_table_says(imitate, learned, fault):
+    answer, (code, recording) = answer_to(fault), run(imitate, learned, fault, "null")
+    told = events(recording)
+    assert code == answer.for_good
+    assert ("device" in told) == (code == 3)
+    if answer.event == "limited":
+        assert answer.why in " ".join(told["limited"])
+        *_, last = steps_told(recording)
+        assert not np.any(last.step.sent)  # the arm rests
+    else:
+        assert answer.event in ("device", "none")
+    if answer.event == "none":
+        assert "vision" not in " ".join(told.get("limited", []))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("fault", FAULTS)
+def test_a_fault_that_is_soon_over_ends_as_the_table_says(imitate, learned, fault):
+    answer = answer_to(fault)
+    code, recording = run(imitate, learned, fault, SOON_OVER)
+    assert code == answer.soon_over
+    assert ("device" in events(recording)) == (code == 3)
+
+
+@pytest.mark.parametrize(
+    ("robot", "words", "told"),
+    [
+        ("so101_sim", ("fault=stuck_motor", "fault.joint=1"), "does not move"),
+        pytest.param("kuka_sim", ("fault=camera_gone",), "no frame", marks=pytest.mark.slow),
+        pytest.param("katana_sim", ("fault=stuck_encoder",), "not move", marks=pytest.mark.slow),
+    ],
+)
+def test_a_fault_comes_to_any_body(imitate, robot, words, told):
+    result = imitate("learn-map", f"robot={robot}", *words, "fault.at=0.2", "out=run")
+    assert result.exit_code == 3
+    assert told in result.stderr
+    assert events(Recording.open(imitate.folder / "run"))["device"]
+    assert verify(imitate.folder / "run") == 0
+
+
+def test_a_joint_that_the_arm_lacks_is_bad_input(imitate):
+    result = imitate("learn-map", "robot=ideal", "fault=hot_motor", "fault.joint=9")
+    assert result.exit_code == 2
+    assert "joints 1 to 5" in result.stderr
+
+
+def test_a_film_cannot_be_spoilt(imitate):
+    words = ("robot=ideal", "camera=video", "camera.path=none.mp4", "fault=camera_black")
+    result = imitate("learn-map", *words)
+    assert result.exit_code == 2
+
+
+def test_what_was_sensed_while_something_went_wrong_cannot_be_otherwise(imitate, learned):
+    run(imitate, learned, "two_tags", SOON_OVER)
+    result = imitate("verify", "run", "--with", "fault=none")
+    assert result.exit_code == 2
+    assert "made the senses" in result.stderr
