@@ -10,8 +10,8 @@ from rich.table import Table
 
 from cli.errors import DONE, UserError
 from cli.inspect import results, size
+from cli.metrics_file import write_metrics
 from cli.recompute import configuration
-from imitation.recording.json_file import write_json
 from imitation.recording.mcap_reading import is_whole
 from imitation.recording.mcap_recording import Recording, recording_in
 from imitation.recording.mcap_recover import Recovery, recover
@@ -28,7 +28,7 @@ def recover_run(run: Path) -> int:
     refuse_while_written(path)
     recovery, kept = recover(path)
     if path.name == "run.mcap":
-        write_metrics(Recording.open(path), recovery)
+        tell(Recording.open(path), recovery)
     show(console, run, recovery, kept)
     return DONE
 
@@ -54,7 +54,7 @@ def refuse_while_written(path: Path) -> None:
             raise UserError(f"{path} is still being written; wait for the run's end") from None
 
 
-def write_metrics(recording: Recording, recovery: Recovery) -> None:
+def tell(recording: Recording, recovery: Recovery) -> None:
     """Write metrics.json; what a run that failed told there before stays in it."""
     told, folder = recording.metadata["run"], recording.path.parent
     period = float(configuration(recording).get("period", 0.0))
@@ -67,7 +67,7 @@ def write_metrics(recording: Recording, recovery: Recovery) -> None:
         "steps": recovery.steps,
         "robot_time_s": round(recovery.last_ns / SECOND + period, 9) if recovery.steps else 0.0,
     }
-    write_json(folder / "metrics.json", content)
+    write_metrics(folder, str(told.get("command")), content)
 
 
 def show(console: Console, run: Path, recovery: Recovery, kept: Path) -> None:

@@ -16,12 +16,12 @@ from omegaconf import OmegaConf
 from cli.build import Bench, Config
 from cli.confirm import confirm_motion
 from cli.interruption import Interruption
+from cli.metrics_file import write_metrics
 from cli.progress import ProgressReport
 from cli.provenance import run_record, sha256
 from imitation.analysis.cadence import Cadence
 from imitation.analysis.frame_count import FrameCount
 from imitation.device import DeviceError
-from imitation.recording.json_file import write_json
 from imitation.recording.recorder import Recorder
 from imitation.robot import SECOND, Truth
 from imitation.robots.bullet.world import find_urdf
@@ -144,7 +144,7 @@ class Run:
             derive(self.folder, self.folder / "run.rrd", demonstration_of(self.folder))
 
     def write_metrics(self, status: str, more: Config) -> None:
-        """Write metrics.json; what is no number becomes null."""
+        """Write metrics.json; what is no number or was not measured becomes null."""
         self.status = status
         content = {
             "command": self.command,
@@ -158,7 +158,7 @@ class Run:
             **self._frames.result(),
             **more,
         }
-        write_json(self.folder / "metrics.json", content)
+        write_metrics(self.folder, self.command, content)
 
     def close(self) -> None:
         """Stop the arm, release the devices, end the log."""

@@ -10,6 +10,7 @@ import pytest
 from typer.testing import CliRunner, Result
 
 from cli.main import app
+from cli.metrics_file import PROMISED
 from cli.verify import verify
 
 for beside in ("recording", "robots"):  # where tampering.py and made_up_films.py are
@@ -28,11 +29,15 @@ class Imitate:
 
 @pytest.fixture
 def imitate(tmp_path, monkeypatch) -> Iterator[Imitate]:
-    """The program; every run that a test makes with it is decided anew at the end."""
+    """The program; every run that a test makes with it is decided anew at the end.
+
+    And whatever became of it, its metrics.json holds what the contract promises.
+    """
     monkeypatch.chdir(tmp_path)
     yield Imitate(tmp_path)
     for told in tmp_path.rglob("metrics.json"):
         metrics = json.loads(told.read_text() or "{}")
+        assert set(PROMISED.get(metrics.get("command"), ())) <= set(metrics)
         if metrics.get("status") == "done" and (told.parent / "run.mcap").is_file():
             assert verify(told.parent) == 0
 

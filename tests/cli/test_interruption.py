@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 
+from cli.metrics_file import PROMISED
 from imitation.recording.mcap_recording import Recording
 
 IMITATE = str(Path(sys.executable).parent / "imitate")
@@ -38,6 +39,7 @@ def test_a_signal_leaves_a_whole_recording(tmp_path, learned, number):
     assert recording.digest() == recording.recomputed_digest()
     metrics = json.loads((tmp_path / "run" / "metrics.json").read_text())
     assert metrics["status"] == "interrupted"
+    assert set(PROMISED["reach"]) <= set(metrics)
     assert metrics["steps"] == sum(1 for _ in recording.messages("/joint_states"))
 
 
