@@ -43,7 +43,8 @@ def draw(cfg: Config) -> int:
     failed = [claim for claim in claims if not claim.passed]
     if not failed or demo:
         return DONE
-    say(f"{name}: {len(failed)} of {len(claims)} claims did not come true")
+    asked = sum(claim.comparison != "reported" for claim in claims)
+    say(f"{name}: {len(failed)} of {asked} claims did not come true")
     return NOT_TRUE
 
 
@@ -53,12 +54,13 @@ def show(title: str, claims: Sequence[Claim], files: Sequence[Path]) -> None:
     for heading in ("claim", "asked", "measured", "95 % interval", ""):
         table.add_column(heading)
     for claim in claims:
+        told = claim.comparison == "reported"
         table.add_row(
             claim.sentence,
-            f"{claim.comparison} {claim.asked:g} {claim.unit}",
-            f"{claim.measured:.4g}",
+            "" if told else f"{claim.comparison} {claim.asked:g} {claim.unit}",
+            f"{claim.measured:.4g}{f' {claim.unit}' if told else ''}",
             f"{claim.low:.4g} .. {claim.high:.4g}",
-            "true" if claim.passed else "not true",
+            "told" if told else "true" if claim.passed else "not true",
         )
     console = Console(highlight=False)
     console.print(table)

@@ -4,7 +4,7 @@ import math
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 
@@ -15,11 +15,11 @@ from imitation.recording.json_file import write_json
 
 @dataclass(frozen=True)
 class Claim:
-    """One claim of the paper as a sentence, and whether it came true here."""
+    """One claim of the paper as a sentence, and whether it came true here; or a mere report."""
 
     sentence: str
-    comparison: Literal["at least", "at most"]  # how `measured` must compare with `asked`
-    asked: float
+    comparison: Literal["at least", "at most", "reported"]  # how it must compare with `asked`
+    asked: float  # nan of a report
     measured: float  # over all seeds
     low: float  # ends of the 95 % confidence interval of `measured`
     high: float
@@ -92,6 +92,11 @@ def surely(claim: Claim) -> Claim:
     return replace(claim, passed=bool(claim.high <= claim.asked))
 
 
+def reported(claim: Claim) -> Claim:
+    """`claim` as a report: told beside the others, nothing is asked of it."""
+    return replace(claim, comparison="reported", asked=math.nan, passed=True)
+
+
 def write_claims(
     folder: Path, figure: str, claims: Sequence[Claim], seeds: int, demo: bool
 ) -> Path:
@@ -108,8 +113,14 @@ def write_claims(
         "figure": figure,
         "demo": demo,
         "seeds": seeds,
-        "claims": [asdict(claim) for claim in claims],
+        "claims": [asdict(one) for one in claims if one.comparison != "reported"],
+        "reports": [_report(one) for one in claims if one.comparison == "reported"],
     }
     path = folder / f"{figure}.claims.json"
     write_json(path, content)
     return path
+
+
+def _report(claim: Claim) -> dict[str, Any]:
+    asking = ("comparison", "asked", "passed")
+    return {key: value for key, value in asdict(claim).items() if key not in asking}

@@ -6,11 +6,18 @@ from typing import Literal
 
 import numpy as np
 
-from imitation.analysis.claims import Claim, every_claim, value_claim
+from imitation.analysis.claims import Claim, every_claim, reported, value_claim
 from imitation.analysis.imitations import Imitations
 from imitation.analysis.mirror import corrects_against, follows, grows
 from imitation.arrays import Array
 
+REPORTED = (  # number of metrics.json, what it is, unit
+    ("correlation", "Correlation of the two paths", ""),
+    ("dtw_px", "Mean distance after dynamic time warping", "px"),
+    ("frechet_px", "Discrete Fréchet distance", "px"),
+    ("jitter_px", "Jitter at 2 to 3 Hz", "px"),
+    ("follow_rate", "Visits followed", "share"),
+)
 Number = Callable[[Imitations], Array]  # values of one map, (n,)
 
 
@@ -40,6 +47,10 @@ class Mimicking:
     ) -> Claim:
         """That the mean share over all maps is at least `least`."""
         return self._claim(sentence, runs, number, np.mean, "at least", least, "share")
+
+    def told(self, sentence: str, runs: Sequence[Imitations], number: Number, unit: str) -> Claim:
+        """What the median over all maps is; nothing is asked of it."""
+        return reported(self.median(sentence, runs, number, np.inf, unit))
 
     def _claim(
         self,
@@ -72,6 +83,7 @@ def claims_of_fig6(runs: Sequence[Imitations], settings: Mimicking) -> list[Clai
         *_lags(runs, settings),
         *_controls(runs, settings),
         *_mirror(runs, settings),
+        *_reports(runs, settings),
     ]
 
 
@@ -131,29 +143,39 @@ def _distances(runs: Sequence[Imitations], settings: Mimicking) -> list[Claim]:
 
 
 def _lags(runs: Sequence[Imitations], settings: Mimicking) -> list[Claim]:
-    winner = numbers("lag_s", "winner", settings.slow)
-    lag = float(np.median([winner(run) for run in runs]))
-    transition = float(np.median([run.transition_s for run in runs]))
-    soft = [
+    asked = [
         settings.median(
-            f"Soft selection lags no more than a human follower, {period:g} s a gesture (median).",
+            f"{name} lags no more than a human follower, {period:g} s a gesture (median).",
             runs,
-            numbers("lag_s", "soft", period),
+            numbers("lag_s", selection, period),
             settings.lag_s,
             "s",
         )
+        for selection, name in (("soft", "Soft selection"), ("winner", "The winner"))
         for period in (settings.slow, settings.quick)
     ]
+    half = settings.told(
+        "Of the winner's lag, half the time that the arm's acceleration takes from one learned "
+        "posture to the next (median).",
+        runs,
+        lambda run: np.array([run.transition_s / 2]),
+        "s",
+    )
+    return [*asked, half]
+
+
+def _reports(runs: Sequence[Imitations], settings: Mimicking) -> list[Claim]:
+    """What is asked of nobody, of each selection at each pace."""
     return [
-        *soft,
-        settings.median(
-            f"So does the winner, less half the {transition:.2f} s that the arm's acceleration "
-            f"takes from one learned posture to the next (its whole lag: {lag:.2f} s).",
+        settings.told(
+            f"{name}, selection={selection}, {period:g} s a gesture (median).",
             runs,
-            lambda run: winner(run) - run.transition_s / 2,
-            settings.lag_s,
-            "s",
-        ),
+            numbers(key, selection, period),
+            unit,
+        )
+        for key, name, unit in REPORTED
+        for selection in ("winner", "soft")
+        for period in (settings.slow, settings.quick)
     ]
 
 

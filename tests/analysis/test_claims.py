@@ -5,7 +5,7 @@ import json
 import numpy as np
 import pytest
 
-from imitation.analysis.claims import every_claim, rate_claim, value_claim, write_claims
+from imitation.analysis.claims import every_claim, rate_claim, reported, value_claim, write_claims
 
 
 def median_claim(groups, comparison, bound):
@@ -68,3 +68,12 @@ def test_the_file_tells_figure_seeds_and_each_claim_as_json_without_nan(tmp_path
     assert every["sentence"] == "All succeed."
     assert (every["asked"], every["measured"], every["passed"]) == (1.0, 1.0, True)
     assert every["low"] < every["high"] == 1.0
+
+
+def test_a_report_is_told_apart_from_the_claims(tmp_path):
+    claims = [every_claim("All succeed.", np.ones(3)), reported(median_claim([], "at most", 2.0))]
+    content = json.loads(write_claims(tmp_path, "fig9", claims, seeds=3, demo=True).read_text())
+    assert [one["sentence"] for one in content["claims"]] == ["All succeed."]
+    [told] = content["reports"]
+    assert "passed" not in told
+    assert "asked" not in told

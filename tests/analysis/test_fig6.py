@@ -29,6 +29,7 @@ PATH = np.column_stack((np.linspace(60, 140, 20), np.full(20, 60.0)))
 
 def followed(gesture: str, selection: str, period: float, rmse: float) -> Followed:
     told = {"path_rmse_px": rmse, "floor_rmse_px": 10.0, "lag_s": 0.3, "follow_rate": 1.0}
+    told |= {"correlation": 0.99, "dtw_px": 2.0, "frechet_px": 5.0, "jitter_px": 0.1}
     return Followed(gesture, selection, period, told, PATH, PATH + 2)
 
 
