@@ -21,6 +21,7 @@ from cli.errors import UserError, no_such
 from cli.jobs.reach import trials_of
 from cli.keys import CONF
 from cli.replaying import replaying
+from cli.run import ATTACHED
 from cli.usual import filled
 from cli.what_if import replaced
 from imitation.recording.action_file import load_action
@@ -165,7 +166,7 @@ def _unpacked(recording: Recording, folder: Path) -> Config:
             data = files.get(value.removeprefix(HASHED))
             if data is None:
                 raise UserError(f"{recording.path}: the file of {key}= is missing or was changed")
-            path = folder / f"{key}{FILES.get(key, '')}"
+            path = folder / ATTACHED.get(key, key)
             path.write_bytes(data)
             cfg[key] = str(path)
     models = [data for name, data in recording.attachments.items() if name.endswith(".urdf")]
@@ -173,9 +174,6 @@ def _unpacked(recording: Recording, folder: Path) -> Config:
         (folder / "arm.urdf").write_bytes(models[0])
         cfg["robot"]["arm"]["urdf"] = str(folder / "arm.urdf")
     return {"out": None, **cfg}
-
-
-FILES = {"map": ".npz", "action": ".json"}  # what the files that a configuration names are
 
 
 @cache

@@ -30,6 +30,9 @@ from imitation.visual_field import VisualField
 
 Watcher = Callable[[Sample, list[Truth]], None]
 
+# What the files that a configuration names are called in a recording, wherever they came from.
+ATTACHED = {"map": "map.npz", "action": "action.json"}
+
 
 @dataclass(frozen=True)
 class Outcome:
@@ -191,16 +194,28 @@ class Run:
         )
 
     def _attachments(self) -> Iterable[tuple[str, bytes]]:
-        told = {key: value for key, value in self.cfg.items() if key != "out"}
-        told |= {key: f"sha256:{sha256(path)}" for key, path in self._inputs.items()}
-        if film := told["camera"].get("path"):
-            content = sha256(Path(str(film)).expanduser())
-            told["camera"] = {**told["camera"], "path": f"sha256:{content}"}
-        yield "config.yaml", OmegaConf.to_yaml(OmegaConf.create(told)).encode()
-        for path in self._inputs.values():
-            yield path.name, path.read_bytes()
+        yield "config.yaml", OmegaConf.to_yaml(OmegaConf.create(self._without_paths())).encode()
+        for key, path in self._inputs.items():
+            yield ATTACHED[key], path.read_bytes()
         if urdf := self.cfg["robot"]["arm"].get("urdf"):
             yield Path(urdf).name, find_urdf(urdf).read_bytes()
+
+    def _without_paths(self) -> dict[str, Any]:
+        """The configuration with each file that it names told by its content."""
+        told = {key: value for key, value in self.cfg.items() if key != "out"}
+        told |= {key: _by_content(path) for key, path in self._inputs.items()}
+        if film := told["camera"].get("path"):
+            content = _by_content(Path(str(film)).expanduser())
+            told["camera"] = {**told["camera"], "path": content}
+        arm = told["robot"]["arm"]
+        if "urdf" in arm and Path(arm["urdf"]).is_file():  # a user's own, else a name of ours
+            arm = {**arm, "urdf": _by_content(Path(arm["urdf"]))}
+            told["robot"] = {**told["robot"], "arm": arm}
+        return told
+
+
+def _by_content(path: Path) -> str:
+    return f"sha256:{sha256(path)}"
 
 
 def until_interrupted(samples: Iterator[Sample], interruption: Interruption) -> Iterator[Sample]:

@@ -1,6 +1,7 @@
 """What a run leaves behind, and that it is the same when repeated."""
 
 import json
+import shutil
 import subprocess
 import sys
 
@@ -9,6 +10,7 @@ from omegaconf import OmegaConf
 
 from cli.check import checked
 from imitation.recording.mcap_recording import Recording
+from imitation.robots.bullet.world import find_urdf
 
 FILES = {"run.mcap", "run.rrd", "metrics.json", "config.yaml", "log.txt", "map.npz"}
 
@@ -50,6 +52,17 @@ def test_the_recording_tells_where_it_comes_from_but_no_paths(imitate, learned):
     assert "map: sha256:" in attached
     assert recording.attachments["map.npz"] == (learned / "map.npz").read_bytes()
     assert "katana_6m180.urdf" in recording.attachments
+
+
+def test_where_and_under_which_name_an_input_lies_does_not_change_the_bytes(imitate, learned):
+    for place in (imitate.folder / "one", imitate.folder / "two"):
+        place.mkdir()
+        shutil.copy(learned / "map.npz", place / f"{place.name}.npz")
+        shutil.copy(find_urdf("katana_6m180.urdf"), place / "own.urdf")
+        words = (f"map={place / place.name}.npz", f"robot.arm.urdf={place / 'own.urdf'}")
+        imitate("reach", "robot=ideal", *words, f"out={place / 'run'}")
+    one, two = (imitate.folder / name / "run" / "run.mcap" for name in ("one", "two"))
+    assert one.read_bytes() == two.read_bytes()
 
 
 @pytest.mark.parametrize("controller", ["yuragi", "corrected_aim"])
