@@ -4,6 +4,7 @@ import linecache
 import sys
 from collections.abc import Iterable, Sequence
 from difflib import get_close_matches
+from typing import Any
 
 DONE, NOT_TRUE, BAD_INPUT, DEVICE, INTERRUPTED = 0, 1, 2, 3, 130
 
@@ -26,6 +27,20 @@ def nearest(word: str, valid: Iterable[str]) -> str:
 def no_such(kind: str, word: str, valid: Sequence[str]) -> str:
     """That `word` is not among the choices, with the nearest and all of them."""
     return f"there is no {kind} {word}{nearest(word, valid) or ';'} choose from {', '.join(valid)}"
+
+
+def in_usage(error: Any) -> str:
+    """What Typer found wrong with the words themselves, and what to type instead."""
+    context, told = getattr(error, "ctx", None), error.format_message().rstrip(".")
+    if isinstance(error.__cause__, ValueError):  # Pydantic's, which knows what came
+        [wrong, *_] = error.__cause__.errors()  # type: ignore[attr-defined]
+        wanted = wrong["msg"].removeprefix("Input ").partition(",")[0]
+        told = f"{error.param.opts[0]} {wrong['input']} {wanted}"
+    if context is None:
+        return f"{told}; see imitate --help"
+    usage = " ".join(context.command.collect_usage_pieces(context))
+    typed = f"{context.command_path} {usage.translate(str.maketrans('', '', '{}'))}"
+    return f"{told}; type {typed}, or see {context.command_path} --help"
 
 
 def is_refusal(error: Exception) -> bool:

@@ -48,13 +48,18 @@ def _run(command: str, words: Words) -> int:
 
 
 def _sweep(command: str, words: Words, main: Callable[[], None]) -> int:
-    from cli.folder import make_run_folder
-    from cli.sweep import out_of, summary
+    from cli.folder import make_run_folder, unmake_run_folder
+    from cli.sweep import out_of, summary, told
 
     folder = make_run_folder(out_of(words.overrides), command)
     where = (f"hydra.sweep.dir={quoted(str(folder))}", "hydra.sweep.subdir=.")
-    with waiting_for_the_jobs(folder):
-        _call(main, [*words.overrides, *QUIET, *search_path(), *where, *words.flags])
+    try:
+        with waiting_for_the_jobs(folder):
+            _call(main, [*words.overrides, *QUIET, *search_path(), *where, *words.flags])
+    except Exception:
+        if not told(folder):  # no job ran: the same out= may be typed again
+            unmake_run_folder(folder)
+        raise
     return summary(folder)
 
 

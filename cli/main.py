@@ -8,7 +8,7 @@ import typer
 from typer.core import TyperGroup
 from typer.exceptions import TyperException
 
-from cli.errors import BAD_INPUT, no_such, say
+from cli.errors import BAD_INPUT, in_usage, no_such, say
 from cli.figures import FIGURES
 from cli.help import StageCommand, complete, figure_names
 from cli.launch import launch
@@ -19,13 +19,19 @@ class OneLineErrors(TyperGroup):
 
     def main(self, *args: Any, **more: Any) -> Any:
         """Run the program and exit."""
-        more["standalone_mode"] = False
+        more |= {"standalone_mode": False, "prog_name": "imitate"}
         try:
             code = super().main(*args, **more)
         except TyperException as error:
-            say(f"{error.format_message()} See imitate --help")
+            say(in_usage(error))
             code = BAD_INPUT
         sys.exit(code)
+
+    def resolve_command(self, ctx: Any, args: list[str]) -> Any:
+        """The command that was typed, refused with all the names there are."""
+        if args[0] not in self.commands and not args[0].startswith("-"):
+            raise TyperException(no_such("command", args[0], list(self.commands)))
+        return super().resolve_command(ctx, args)
 
 
 app = typer.Typer(cls=OneLineErrors, rich_markup_mode=None, pretty_exceptions_enable=False)
@@ -40,7 +46,7 @@ Words = Annotated[
 ]
 
 
-Recorded = Annotated[Path, typer.Argument(help="A run's folder, or its run.mcap.")]
+Recorded = Annotated[Path, typer.Argument(metavar="RUN", help="A run's folder, or its run.mcap.")]
 
 
 @app.callback(invoke_without_command=True)
@@ -99,7 +105,9 @@ def replay(words: Words = None) -> None:
 
 @app.command(**STAGE)
 def figure(
-    name: Annotated[str, typer.Argument(help=" | ".join(FIGURES), autocompletion=figure_names)],
+    name: Annotated[
+        str, typer.Argument(metavar="NAME", help=" | ".join(FIGURES), autocompletion=figure_names)
+    ],
     words: Words = None,
 ) -> None:
     """Draw a figure of the paper and check what it claims."""
@@ -112,7 +120,9 @@ def figure(
 
 @app.command()
 def view(
-    run: Annotated[Path, typer.Argument(help="A run's folder, its run.mcap or run.rrd.")],
+    run: Annotated[
+        Path, typer.Argument(metavar="RUN", help="A run's folder, its run.mcap or run.rrd.")
+    ],
     screenshot: Annotated[
         Path | None, typer.Option(help="Save a picture here instead; needs no screen.")
     ] = None,
@@ -126,7 +136,7 @@ def view(
 
 @app.command()
 def emulate(
-    device: Annotated[str, typer.Argument(help="katana | ssc32 | servo-bus")],
+    device: Annotated[str, typer.Argument(metavar="DEVICE", help="katana | ssc32 | servo-bus")],
     model: Annotated[str, typer.Option(help="Of the Katana: 300, 400 or 450.")] = "400",
     port: Annotated[int | None, typer.Option(help="TCP port on 127.0.0.1; 0: a free one.")] = None,
     pty: Annotated[Path | None, typer.Option(help="Serial port to make.")] = None,
@@ -146,7 +156,9 @@ def emulate(
 
 @app.command()
 def inspect(
-    run: Annotated[Path, typer.Argument(help="A run's folder, an .mcap of any program, a bag.")],
+    run: Annotated[
+        Path, typer.Argument(metavar="RUN", help="A run's folder, an .mcap of any program, a bag.")
+    ],
     as_json: Annotated[bool, typer.Option("--json", help="For scripts.")] = False,
 ) -> None:
     """Tell on one screen what a recording holds, and what to type next."""

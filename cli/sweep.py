@@ -12,6 +12,8 @@ from rich.table import Table
 from cli.errors import BAD_INPUT, UserError
 from imitation.recording.json_file import write_json
 
+TOLD = ".job-*.json"  # what each job leaves behind
+
 
 def out_of(overrides: list[str]) -> str | None:
     """Where the sweep is to lie: the value of `out=`, or None."""
@@ -27,8 +29,10 @@ def out_of(overrides: list[str]) -> str | None:
 
 def summary(folder: Path) -> int:
     """Gather the jobs' exit codes in sweep.json, print them, and return the worst."""
-    jobs = sorted(_told(folder), key=lambda one: int(one["job"]))
+    jobs = sorted(told(folder), key=lambda one: int(one["job"]))
     write_json(folder / "sweep.json", {"jobs": jobs})
+    for path in folder.glob(TOLD):
+        path.unlink()
     table = Table(title="sweep", title_justify="left")
     for heading in ("job", "exit code", "overrides"):
         table.add_column(heading)
@@ -40,9 +44,6 @@ def summary(folder: Path) -> int:
     return max((int(one["exit_code"]) for one in jobs), default=BAD_INPUT)
 
 
-def _told(folder: Path) -> list[dict[str, Any]]:
-    jobs = []
-    for path in folder.glob(".job-*.json"):
-        jobs.append(json.loads(path.read_text()))
-        path.unlink()
-    return jobs
+def told(folder: Path) -> list[dict[str, Any]]:
+    """What the jobs that ran have left behind: number, overrides, exit code."""
+    return [json.loads(path.read_text()) for path in folder.glob(TOLD)]

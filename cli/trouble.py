@@ -18,6 +18,8 @@ from cli.keys import comments, groups_of
 
 BRACKETS = "put values that hold brackets or spaces in quotes, such as 'target=[80,60]'"
 
+NO_SLURM = "srun is not on the PATH here; on one machine type hydra/launcher=joblib"
+
 
 def as_user_error(command: str, error: Exception) -> Exception:
     """The error to show instead of Hydra's; a bug of this program as it is."""
@@ -31,6 +33,8 @@ def as_user_error(command: str, error: Exception) -> Exception:
         return UserError(_not_composed(command, error))
     if isinstance(error, yaml.YAMLError):
         return UserError(_bad_yaml(error))
+    if isinstance(error, RuntimeError) and "srun" in str(error):
+        return UserError(f"hydra/launcher=submitit_slurm: {NO_SLURM}")
     if isinstance(error, HydraException | OmegaConfBaseException):
         return UserError(_first_line(error))
     return error

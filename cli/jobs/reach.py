@@ -77,6 +77,8 @@ def trials_of(bench: Bench, stored: LearnedMap) -> list[Trial]:
     cfg = bench.cfg
     targets_rng, starts_rng = generator(cfg["seed"], "targets"), generator(cfg["seed"], "starts")
     count, inset = cfg["trials"], cfg["reach"]["inset"]
+    if cfg["area"] is not None and cfg["target"] != "random":
+        raise UserError(f"area={cfg['area']} and target={cfg['target']}: give one of them")
     if cfg["area"] is not None:
         targets = [_learned_place(stored, cfg["area"])] * count
     elif cfg["target"] == "random":

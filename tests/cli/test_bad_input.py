@@ -10,6 +10,12 @@ from cli.errors import is_refusal
 # what was typed, and words that the one line must hold
 TYPED = [
     (["lern-map"], ["lern-map", "learn-map"]),
+    (["nowhere"], ["no command nowhere", "learn-map, reach"]),
+    (["--nope"], ["--nope", "imitate --help"]),
+    (["inspect"], ["'RUN'", "type imitate inspect", "RUN"]),
+    (["explain", "nowhere"], ["--at", "imitate explain --help"]),
+    (["explain", "nowhere", "--at", "noon"], ["--at noon", "a valid number"]),
+    (["export", "nowhere", "--to"], ["--to", "requires an argument"]),
     (["learn-map", "--multi"], ["--multi", "--multirun"]),
     (["learn-map", "seed"], ["KEY=VALUE", "seed"]),
     (["learn-map", "sede=1"], ["sede", "seed"]),
@@ -122,6 +128,11 @@ def test_the_map_of_another_arm_is_refused_with_the_reason(imitate, tmp_path, le
 def test_another_field_than_the_maps_is_refused(imitate, learned):
     result = imitate("reach", "robot=ideal", f"map={learned}", "field=right_3x3")
     one_line(result, "right_3x3", "right_4x4")
+
+
+def test_an_area_beside_a_target_is_refused(imitate, learned):
+    result = imitate("reach", "robot=ideal", f"map={learned}", "target=[90,60]", "area=[1,2]")
+    one_line(result, "area=[1, 2]", "target=[90, 60]", "one of them")
 
 
 def test_a_target_outside_the_learned_region_is_refused_unless_forced(imitate, learned):

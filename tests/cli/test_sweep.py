@@ -40,3 +40,13 @@ def test_a_launcher_runs_jobs_in_other_processes(imitate, launcher):
     assert result.exit_code == 1, result.output
     told = json.loads((imitate.folder / "sweep/sweep.json").read_text())
     assert [one["exit_code"] for one in told["jobs"]] == [1, 0]
+
+
+@pytest.mark.parametrize("word", ["hydra/launcher=submitit_slurm", "field=right_3x3,right_5x5"])
+def test_a_sweep_that_cannot_begin_is_one_line_and_leaves_nothing(imitate, monkeypatch, word):
+    monkeypatch.setenv("PATH", "")  # no Slurm
+    result = imitate("learn-map", "-m", "robot=ideal", word, "out=sweep")
+    assert result.exit_code == 2
+    assert result.stderr.count("\n") == 1
+    assert word.split(",")[-1] in result.stderr
+    assert not list(imitate.folder.iterdir())
