@@ -16,6 +16,7 @@ LINES = [
 
 
 @pytest.mark.slow
+@pytest.mark.timeout(900)
 def test_every_command_of_the_lesson_ends_well(imitate):
     for line in LINES:
         result = imitate(*shlex.split(line)[1:])
