@@ -13,10 +13,12 @@ from imitation.robot import SECOND, Arm, Observation, Shot
 from imitation.robots.katana.arm import KatanaArm
 from imitation.robots.katana.commands import Status
 from imitation.robots.serial_line import SerialLine
-from imitation.robots.ssc32 import board_version
+from imitation.robots.servo_arm import ServoArm
+from imitation.robots.ssc32 import board_version, pulses_at
 
 SERIAL = ("ttyS[0-9]", "ttyUSB*", "ttyACM*")
 WATCH = 1.0  # how long the camera is watched [s]
+NEARLY = 10  # so near to where it gives up a servo is too warm [degrees Celsius]
 DARK, BRIGHT = 30, 225  # mean brightness of a picture that can be seen on
 
 
@@ -44,6 +46,8 @@ def _of_arm(bench: Bench) -> Iterator[Finding]:
     if isinstance(arm, KatanaArm):
         yield look("motors", lambda: _motors(arm), device=True)
         yield look("gripper", lambda: _gripper(arm), device=True)
+    if isinstance(arm, ServoArm):
+        yield look("servos", lambda: _servos(arm), device=True)
 
 
 def _ports() -> str:
@@ -65,14 +69,16 @@ def _arm(bench: Bench) -> str:
 
 def _joints(arm: Arm) -> str:
     posture, body = arm.read().posture, arm.body
-    told = ", ".join(f"{np.degrees(angle):.0f}°" for angle in posture)
+    angles, lower, upper = np.degrees((posture, body.lower, body.upper))
+    told = ", ".join(
+        f"{at:.0f}° ({least:.0f}..{most:.0f})"
+        for at, least, most in zip(angles, lower, upper, strict=True)
+    )
     beyond = (posture < body.lower) | (posture > body.upper)
     if beyond.any():
         joint = int(np.argmax(beyond))
         raise Suspicious(
-            f"{told}: {body.joint_names[joint]} is beyond its limits "
-            f"({np.degrees(body.lower[joint]):.0f}° to {np.degrees(body.upper[joint]):.0f}°); "
-            "calibrate the arm"
+            f"{told}: {body.joint_names[joint]} is beyond its limits; calibrate the arm"
         )
     return told
 
@@ -94,6 +100,22 @@ def _gripper(arm: KatanaArm) -> str:
     return f"sensors {' '.join(map(str, arm.katana.sensors()))}"
 
 
+def _servos(arm: ServoArm) -> str:
+    arm.bus.refuse_troubled()
+    found = arm.bus.report()
+    hottest = int(np.argmax(found.temperature - found.hottest))
+    told = (
+        f"firmware {', '.join(sorted(set(found.firmware)))}, "
+        f"{found.voltage.min():.1f} to {found.voltage.max():.1f} V, "
+        f"up to {found.temperature[hottest]:.0f} of {found.hottest[hottest]:.0f} °C, "
+        f"torque {'on' if found.torque_on.all() else 'off'}, "
+        f"limited to {100 * found.torque_limit.max():.0f} %"
+    )
+    if found.temperature[hottest] > found.hottest[hottest] - NEARLY:
+        raise Suspicious(f"{told}: let {arm.body.joint_names[hottest]} cool")
+    return told
+
+
 def _camera(bench: Bench) -> str:
     camera = bench.camera
     if not camera.live:
@@ -107,7 +129,11 @@ def _camera(bench: Bench) -> str:
         time.sleep(0.1)
     rate, bright = frames / WATCH, float(shot.frame.mean())
     pixels = bench.perception(bench.field).detector.hand_in(_seen(shot))
-    told = f"{rate:.0f} frames/s, brightness {bright:.0f} of 255"
+    ends = float(np.isin(shot.frame, (0, 255)).all(axis=2).mean())
+    told = (
+        f"{rate:.0f} frames/s, brightness {bright:.0f} of 255, "
+        f"{100 * ends:.0f} % of it black or white"
+    )
     if not DARK <= bright <= BRIGHT:
         raise Suspicious(f"{told}: set its exposure, or the light")
     if not len(pixels):
@@ -143,4 +169,7 @@ def _neck(cfg: Config) -> str:
         return "none asked for (neck=ssc32)"
     line = SerialLine(node["port"], node["baud"], node["timeout"])
     with closing(line):
-        return board_version(line, node["timeout"])
+        version = board_version(line, node["timeout"])
+        channels = [node[axis]["channel"] for axis in ("pan", "tilt")]
+        pan, tilt = pulses_at(line, channels, node["timeout"])
+    return f"{version}, pulses of pan {pan} us, of tilt {tilt} us (0: not told yet)"

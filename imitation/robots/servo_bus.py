@@ -2,12 +2,13 @@
 
 import time
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from rustypot import Sts3215PyController
 
-from imitation.arrays import Array
+from imitation.arrays import Array, Mask
 from imitation.device import DeviceError
 
 MODEL = 777  # what an STS3215 says it is
@@ -16,6 +17,18 @@ QUIET = 0.02  # after a spoilt reply: what still comes would be taken for the ne
 FULL_TORQUE, FULL_ACCELERATION = 1000, 254  # the registers' largest values
 ACCELERATION_STEP = 100 * STEP  # [rad/s^2]
 WRONG = {1: "voltage", 2: "sensor", 4: "temperature", 8: "current", 32: "overload"}  # status bits
+
+
+@dataclass(frozen=True)
+class ServoReport:
+    """What servos say of themselves; each of (n,)."""
+
+    firmware: tuple[str, ...]
+    voltage: Array  # [V]
+    temperature: Array  # [degrees Celsius]
+    hottest: Array  # at which each gives up [degrees Celsius]
+    torque_limit: Array  # [share of what it can]
+    torque_on: Mask
 
 
 class ServoBus:
@@ -70,6 +83,18 @@ class ServoBus:
     def torque(self, on: bool) -> None:
         """Switch all motors on or off."""
         self._write("torque_enable", [on] * len(self._ids))
+
+    def report(self) -> ServoReport:
+        """What the servos say of themselves."""
+        major, minor = (self._read(f"firmware_{part}_version") for part in ("major", "minor"))
+        return ServoReport(
+            firmware=tuple(f"{one:.0f}.{two:.0f}" for one, two in zip(major, minor, strict=True)),
+            voltage=self._read("present_voltage") * 0.1,
+            temperature=self._read("present_temperature"),
+            hottest=self._read("max_temperature_limit"),
+            torque_limit=self._read("torque_limit") / FULL_TORQUE,
+            torque_on=self._read("torque_enable") > 0,
+        )
 
     def refuse_troubled(self) -> None:
         """Raise a DeviceError when a servo is in trouble."""

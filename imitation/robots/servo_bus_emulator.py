@@ -21,8 +21,9 @@ HEADER = b"\xff\xff"
 PING, READ, WRITE, SYNC_READ, SYNC_WRITE = 1, 2, 3, 0x82, 0x83
 EVERYONE = 0xFE
 MODEL, STS3215 = 3, 777
-LOWEST, HIGHEST, HOTTEST, TORQUE_ON, GOAL, SPEED = 9, 11, 13, 40, 42, 46
-POSITION, VELOCITY, TEMPERATURE, STATUS = 56, 58, 63, 65
+FIRMWARE = (3, 10)
+LOWEST, HIGHEST, HOTTEST, TORQUE_ON, GOAL, SPEED, TORQUE_LIMIT = 9, 11, 13, 40, 42, 46, 48
+POSITION, VELOCITY, VOLTAGE, TEMPERATURE, STATUS = 56, 58, 62, 63, 65
 HOT, OVERLOADED = 4, 32  # bits of the status
 TURN = 4096  # steps
 STEP = 2 * np.pi / TURN  # [rad]
@@ -35,9 +36,11 @@ class EmulatedServo:
     def __init__(self) -> None:
         self.table = bytearray(128)
         self.position = TURN / 2  # [steps]
+        self.table[:2] = FIRMWARE
         for address, value in ((MODEL, STS3215), (LOWEST, 0), (HIGHEST, TURN - 1), (GOAL, 2048)):
             self.put(address, value)
-        self.table[HOTTEST], self.table[TEMPERATURE] = 70, 30
+        self.put(TORQUE_LIMIT, 1000)
+        self.table[HOTTEST], self.table[TEMPERATURE], self.table[VOLTAGE] = 70, 30, 121
 
     def put(self, address: int, value: int) -> None:
         """Set a register of two bytes; a negative one has its sign in the highest bit."""

@@ -114,13 +114,12 @@ class Ssc32Neck:
         self._looked = now
         if now < self._began + self._lasts + self._watch:
             return
-        channels = "".join(f"QP{servo.channel}" for servo in self._servos)
-        held = ask(self._line, channels, self._timeout, count=len(self._servos))
+        held = pulses_at(self._line, [servo.channel for servo in self._servos], self._timeout)
         for servo, pulse, one in zip(self._servos, self._to, held, strict=True):
-            if abs(one * STEP - pulse) > STEP:
+            if abs(one - pulse) > STEP:
                 raise DeviceError(
                     f"the neck's servo on channel {servo.channel} should be at {pulse} us and "
-                    f"is at {one * STEP}: the board has started anew; check its power supply"
+                    f"is at {one}: the board has started anew; check its power supply"
                 )
 
     def close(self) -> None:
@@ -155,6 +154,12 @@ def board_version(line: Line, timeout: float) -> str:
     if not told.startswith("SSC32"):
         raise DeviceError(f"at {line.name} is no SSC-32: it says {told[:20]!r} to VER")
     return told
+
+
+def pulses_at(line: Line, channels: Sequence[int], timeout: float) -> list[int]:
+    """Pulses that the board sends on its `channels` [us]; 0: none, it was never told."""
+    asked = "".join(f"QP{channel}" for channel in channels)
+    return [one * STEP for one in ask(line, asked, timeout, count=len(channels))]
 
 
 def ask(line: Line, asked: str, timeout: float, until: bytes = b"", count: int = 0) -> bytes:

@@ -25,6 +25,9 @@ CAMERA_FAULTS = {
     "tag_lost": "there is no tag on the hand",
     "two_tags": "a second thing looks like the tag",
 }
+GRAIN = (
+    2  # of its pixels: no two pictures of a real camera are equal, though nothing moves [0..255]
+)
 ATTENTION = 3.0  # how long the robot has rested when a demonstrator takes it to watch [s]
 
 
@@ -60,6 +63,7 @@ class Twin:
         rate: Pictures per second [Hz].
         quality: Of the JPEGs [1..100].
         faults: What goes wrong with the camera.
+        rng: Draws the grain of its pictures.
     """
 
     arm: BulletArm
@@ -74,6 +78,7 @@ class Twin:
     rate: float
     quality: int
     faults: Faults = field(default_factory=Faults)
+    rng: np.random.Generator = field(default_factory=np.random.default_rng)
     _shown: bytes = b""
     _session: int = -1
     _quiet_since: float = 0.0  # the arm rests [s]
@@ -129,7 +134,9 @@ class Twin:
         return np.asarray(self.straight + np.array(angles))
 
     def _picture(self, now: float) -> Image:
-        picture = self.arm.scene.photograph(self.space, self.eye, self.gaze())
+        clean = self.arm.scene.photograph(self.space, self.eye, self.gaze())
+        grain = self.rng.integers(-GRAIN, GRAIN + 1, clean.shape, dtype=np.int16)
+        picture = np.asarray(np.clip(clean + grain, 0, 255), dtype=np.uint8)
         for name, spoil in SPOILT.items():
             if self.faults.at(now, name):
                 picture = spoil(picture)

@@ -3,6 +3,9 @@
 import json
 
 import pytest
+from emulated import served
+
+from imitation.robots.servo_bus_emulator import HOTTEST, ServoBusEmulator
 
 
 def found(result) -> dict[str, dict]:
@@ -28,6 +31,24 @@ def test_a_simulated_robot_passes(imitate, robot):
     assert result.exit_code == 0
     assert all(one["verdict"] != "fail" for one in found(result).values())
     assert "hand at" in found(result)["camera"]["told"]
+
+
+def test_the_servos_of_a_bus_tell_how_they_are(imitate):
+    servos = ServoBusEmulator()
+    with served(servos, imitate.folder / "bus"):
+        words = ("robot=so101", "robot.arm.address=bus", "camera.device=/dev/nothing")
+        told = found(imitate("doctor", *words, "--json"))
+        servos.servos[2].table[HOTTEST] = 35
+        warm = found(imitate("doctor", *words, "--json"))
+    assert told["joints"]["verdict"] == "pass"
+    assert told["servos"] == {
+        "subject": "servos",
+        "verdict": "pass",
+        "told": "firmware 3.10, 12.1 to 12.1 V, up to 30 of 70 °C, torque off, limited to 100 %",
+        "device": True,
+    }
+    assert warm["servos"]["verdict"] == "warn"
+    assert "let shoulder_lift cool" in warm["servos"]["told"]
 
 
 def test_devices_that_do_not_answer_are_told_with_what_to_type(imitate):

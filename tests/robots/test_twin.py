@@ -13,6 +13,7 @@ from imitation.robots.katana.emulated_arm import EmulatedArm
 from imitation.robots.katana.emulator import KatanaEmulator
 from imitation.robots.katana.models import MODELS
 from imitation.robots.mjpeg import MjpegServer
+from imitation.robots.opencv_camera import Development
 from imitation.robots.ssc32 import Servo
 from imitation.robots.ssc32_emulator import Ssc32Emulator
 from imitation.robots.twin import CAMERA_FAULTS, Twin
@@ -106,6 +107,14 @@ def test_a_camera_may_show_black_nothing_new_or_nothing():
         assert len(pictures) == 2
         one.advance(3.0)
         assert len(red(pictures[-1]))
+
+
+def test_pictures_of_an_arm_at_rest_are_not_frozen():
+    with twin() as (one, pictures):
+        develop = Development(one.space.size, (0.0, 0.0), "crop", mirror=False, quality=95)
+        for step in range(25):
+            one.advance(step / 25)
+        assert len({develop.jpeg(picture) for picture in pictures}) == 25
 
 
 def test_the_tag_may_be_lost_or_doubled():
