@@ -36,8 +36,7 @@ def broken(recording: Recording) -> list[Break]:
     for number, chunk in enumerate(recording.chunks(), start=1):
         start_ns = min((message.time_ns for message in chunk), default=end_ns)
         end_ns = max((message.time_ns for message in chunk), default=end_ns)
-        for message in chunk:
-            digest.add(*message)
+        digest.add(chunk)
         told, now = recording.metadata.get(f"digest/{number:04d}"), digest.values()
         if told is None and not recording.whole:
             break  # cut between a chunk and its digest

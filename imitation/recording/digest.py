@@ -3,6 +3,9 @@
 import hashlib
 import struct
 from collections import defaultdict
+from collections.abc import Iterable
+
+from imitation.recording.step_messages import Message
 
 OVERALL = "all"  # key of the digest over the digests of all topics
 _ENTRY = struct.Struct("<QQ")  # log_time [ns], length of the data [bytes]
@@ -17,23 +20,20 @@ class Digest:
 
     def __init__(self) -> None:
         self._hashes: dict[str, hashlib._Hash] = {}
-        self._pending: defaultdict[str, list[bytes]] = defaultdict(list)
 
-    def add(self, topic: str, time_ns: int, data: bytes) -> None:
-        """One more message; kept until the values are asked for."""
-        self._pending[topic] += (_ENTRY.pack(time_ns, len(data)), data)
+    def add(self, messages: Iterable[Message]) -> None:
+        """More messages."""
+        told: defaultdict[str, list[bytes]] = defaultdict(list)
+        for topic, time_ns, data in messages:
+            told[topic] += (_ENTRY.pack(time_ns, len(data)), data)
+        for topic, content in told.items():
+            if topic not in self._hashes:
+                self._hashes[topic] = hashlib.sha256(topic.encode() + b"\0")
+            # In one piece, so that the thread gives up the GIL, and waits for it again, but once.
+            self._hashes[topic].update(b"".join(content))
 
     def values(self) -> dict[str, str]:
         """Hexadecimal digest of each topic, sorted, and `all` over the lines `digest  topic`."""
-        for topic in self._pending:
-            self._hash(topic)
         topics = {topic: self._hashes[topic].hexdigest() for topic in sorted(self._hashes)}
         lines = "".join(f"{value}  {topic}\n" for topic, value in topics.items())
         return topics | {OVERALL: hashlib.sha256(lines.encode()).hexdigest()}
-
-    def _hash(self, topic: str) -> None:
-        if topic not in self._hashes:
-            self._hashes[topic] = hashlib.sha256(topic.encode() + b"\0")
-        # In one piece, so that the thread gives up the GIL, and waits for it again, but once.
-        self._hashes[topic].update(b"".join(self._pending[topic]))
-        self._pending[topic].clear()

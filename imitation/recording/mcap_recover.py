@@ -16,6 +16,7 @@ from imitation.recording.digest import Digest
 from imitation.recording.mcap_quick import NO_LIMIT, QuickWriter
 from imitation.recording.mcap_reading import MESSAGE_FIELDS, parts, records, unpacked
 from imitation.recording.run_files import free
+from imitation.recording.step_messages import Message
 
 KINDS: dict[int, Any] = {
     Opcode.METADATA: Metadata,
@@ -78,6 +79,7 @@ class Recovery:
             self._chunks += 1
 
     def _copy_chunk(self, writer: Any, told: list[tuple[int, bytes]]) -> None:
+        messages = []
         for opcode, content in told:
             stream = ReadDataStream(BytesIO(content))
             if opcode == Opcode.SCHEMA:
@@ -89,17 +91,15 @@ class Recovery:
                 encoding, metadata = one.message_encoding, one.metadata
                 writer.register_channel(one.topic, encoding, one.schema_id, metadata)
             elif opcode == Opcode.MESSAGE:
-                channel, _, time_ns, published_ns = MESSAGE_FIELDS.unpack_from(content)
+                channel, _, time_ns, _ = MESSAGE_FIELDS.unpack_from(content)
                 data = content[MESSAGE_FIELDS.size :]
-                writer.add_message(channel, time_ns, data, published_ns)
-                self._take_notice(self._topics[channel], time_ns, data)
+                messages.append(Message(self._topics[channel], time_ns, data))
+        writer.add_messages(messages)
         writer.flush()
-        self._digest.values()  # lets go of what was read
-
-    def _take_notice(self, topic: str, time_ns: int, data: bytes) -> None:
-        self._digest.add(topic, time_ns, data)
-        if topic == "/joint_command/sent":
-            self.steps, self.last_ns = self.steps + 1, time_ns
+        self._digest.add(messages)
+        for message in messages:
+            if message.topic == "/joint_command/sent":
+                self.steps, self.last_ns = self.steps + 1, message.time_ns
 
 
 def recover(cut: Path) -> tuple[Recovery, Path]:

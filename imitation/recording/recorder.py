@@ -1,18 +1,19 @@
 """The recording `run.mcap`, written live from a thread."""
 
 import queue
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from contextlib import suppress
 from pathlib import Path
 
 from imitation.recording.fifo import Worker, WorkFailedError
 from imitation.recording.mcap_file import McapFile
-from imitation.recording.step_messages import StepMessages, event_message
+from imitation.recording.step_messages import Message, StepMessages, event_message
 from imitation.robot import SECOND, Body, Truth
 from imitation.sample import Event, Sample
 from imitation.visual_field import VisualField
 
-LONGEST_QUEUE_NS = SECOND // 4
+LONGEST_QUEUE_NS = SECOND // 4  # of steps that come while a chunk is written
+WALL_LIMIT = 1.0  # a step that waits for longer is written, unless reproducible [s]
 
 
 class RecorderError(RuntimeError):
@@ -52,17 +53,17 @@ class Recorder:
         reproducible: bool,
         patience: float | None = None,
     ) -> None:
-        waiting, chunk_ns = bounds(max_loss, period_ns)
+        chunk, limit = bounds(max_loss, period_ns)
         self.path, self._patience = path, patience
         self._closed = self._failed = False
         self._steps = StepMessages(body)
         try:
-            self._file = McapFile(path, body, field, period_ns, chunk_ns, not reproducible)
+            self._file = McapFile(path, body, field, clock=not reproducible)
             self._file.begin(metadata, attachments)
         except OSError as error:
             raise self._failure(error) from error
         self._worker: Worker[tuple[Sample, Sequence[Truth] | Event]] = Worker(
-            self._write, self._file.close_old_chunk, waiting, None if reproducible else 0.1
+            self._write, chunk, limit, None if reproducible else WALL_LIMIT
         )
 
     def write(self, sample: Sample, truths: Sequence[Truth]) -> None:
@@ -121,12 +122,14 @@ class Recorder:
     def __exit__(self, *error: object) -> None:
         self.close()
 
-    def _write(self, step: tuple[Sample, Sequence[Truth] | Event]) -> None:
-        sample, more = step
+    def _write(self, steps: Sequence[tuple[Sample, Sequence[Truth] | Event]]) -> None:
+        told = [message for step in steps for message in self._told(*step)]
+        self._file.add_chunk(told, jpeg=steps[0][0].seen.jpeg is not None)
+
+    def _told(self, sample: Sample, more: Sequence[Truth] | Event) -> Iterable[Message]:
         if isinstance(more, Event):
-            self._file.add_step(sample, [event_message(sample.applied.time_ns, more)])
-        else:
-            self._file.add_step(sample, self._steps.of(sample, more))
+            return [event_message(sample.applied.time_ns, more)]
+        return self._steps.of(sample, more)
 
     def _failure(self, error: BaseException) -> RecorderError:
         self._failed = True
@@ -135,16 +138,16 @@ class Recorder:
 
 
 def bounds(max_loss: float, period_ns: int) -> tuple[int, int]:
-    """How many steps may wait, and how long a chunk may be [ns], to lose `max_loss` [s] at most.
+    """How many steps make a chunk, and how many may wait or be in it, to lose `max_loss` [s].
 
     Raises:
         ValueError: `max_loss` holds less than two periods.
     """
-    loss_ns = round(max_loss * SECOND)
-    if loss_ns < 2 * period_ns:
+    limit = round(max_loss * SECOND) // period_ns
+    if limit < 2:
         raise ValueError(
             f"recording.max_loss={max_loss:g} s holds less than two control periods of "
             f"{period_ns / SECOND:g} s; give at least {2 * period_ns / SECOND:g}"
         )
-    waiting = max(1, min(LONGEST_QUEUE_NS, loss_ns // 4) // period_ns)
-    return waiting, loss_ns - waiting * period_ns
+    waiting = max(1, min(LONGEST_QUEUE_NS // period_ns, limit // 4))
+    return limit - waiting, limit
