@@ -40,7 +40,7 @@ class Shown:
         return self._judged(cfg, lambda bench: exploring(bench, self.learned, lasting))
 
     def _judged(self, cfg: Config, stage: Stage) -> dict[str, Any]:
-        return judged(cfg, self.learned, self.action, stage)
+        return judged(cfg, self.learned, self.action, stage).result()
 
 
 def controls(shown: Shown) -> list[dict[str, Any]]:

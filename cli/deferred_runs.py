@@ -1,13 +1,13 @@
 """Demonstrations and replays that figures and experiments are made of; nothing is recorded."""
 
 from collections.abc import Callable, Iterator
-from typing import Any
 
 from cli.build import Bench, Config
 from cli.experiments import composed
 from cli.jobs.replay import deferred_metrics
 from cli.replaying import replaying
 from cli.stages import watching
+from imitation.analysis.deferred import DeferredMetrics
 from imitation.recording.action_file import Action
 from imitation.sample import Sample
 from imitation.visuo_motor_map import VisuoMotorMap
@@ -35,16 +35,16 @@ def demonstrated(seed: int, *words: str, look: Look | None = None) -> Action:
 
 def replayed(
     seed: int, learned: VisuoMotorMap, action: Action, *words: str, look: Look | None = None
-) -> dict[str, Any]:
-    """What `metrics.json` would say of a replay run; for the arguments see `demonstrated`."""
+) -> DeferredMetrics:
+    """What is measured of a replay run; for the arguments see `demonstrated`."""
     cfg = {**composed("replay", "map=given", "action=given", *words), "seed": seed}
     return judged(cfg, learned, action, lambda bench: replaying(bench, learned, action)[1], look)
 
 
 def judged(
     cfg: Config, learned: VisuoMotorMap, shown: Action, stage: Stage, look: Look | None = None
-) -> dict[str, Any]:
-    """What is said of a stage's steps when `shown` was to be imitated."""
+) -> DeferredMetrics:
+    """What is measured of a stage's steps when `shown` was to be imitated."""
     bench = Bench(cfg)
     metrics = deferred_metrics(bench, learned, shown)
     for sample in stage(bench):
@@ -52,4 +52,4 @@ def judged(
         if look:
             look(sample, bench)
     bench.robot.close()
-    return metrics.result()
+    return metrics

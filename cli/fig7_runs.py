@@ -11,13 +11,17 @@ from cli.build import Bench
 from cli.deferred_runs import demonstrated, replayed
 from cli.every_seed import on_every_seed
 from cli.experiments import Experiment, learned_map
-from imitation.analysis.fig7 import Asked, Movement, Strip, draw_fig7
+from cli.trigger_table import Trying, triggers
+from imitation.analysis.fig7 import Movement, Strip, draw_fig7
+from imitation.analysis.fig7_claims import Asked, Deferred
 from imitation.analysis.figure_style import Drawn
 from imitation.arrays import Array
 from imitation.recording.action_file import Action
 from imitation.robots.bullet.world_portrait import LitWorld, Moment, lit_up
 from imitation.sample import Sample
 from imitation.visuo_motor_map import VisuoMotorMap
+
+EMPTY_HANDED = "~object"
 
 
 @dataclass(frozen=True)
@@ -28,6 +32,7 @@ class Fig7:
     conditions: Mapping[str, Sequence[str]]
     reproductions: Mapping[str, Sequence[str]]
     other_arm: Sequence[str]
+    trying: Trying
     all_from: int
     fade: float
     portrait: Any  # of imitation.robots
@@ -78,21 +83,24 @@ def fig7(seeds: Sequence[int], settings: Fig7) -> Drawn:
     return draw_fig7(strips(seeds[0], settings), runs, settings.drawing)
 
 
-def outcomes(seed: int, settings: Fig7) -> dict[str, dict[str, Any]]:
+def outcomes(seed: int, settings: Fig7) -> Deferred:
     """What came of each condition with the seed's own map and demonstration."""
     learned = map_of(seed)
     action = demonstrated(seed, *settings.demonstration)
     found = {
         name: replayed(seed, learned, action, *words) for name, words in settings.conditions.items()
     }
+    paths = {}
     if settings.other_arm:
         other = learned_map(seed, Experiment(settings.other_arm, [], [], 1))
-        found["other arm"] = replayed(seed, other, action, *settings.other_arm, "~object")
+        found["other arm"] = replayed(seed, other, action, *settings.other_arm, EMPTY_HANDED)
+        paths = {"Katana": found["without a can"].path(), "other arm": found["other arm"].path()}
     delays = np.diff([state.time for state in action.states]).tolist()
-    return {name: {**told, "delays_s": delays} for name, told in found.items()}
+    told = {name: {**one.result(), "delays_s": delays} for name, one in found.items()}
+    return Deferred(told, paths, triggers(seed, learned, action, settings.trying))
 
 
-def first_outcome(seed: int, settings: Fig7) -> dict[str, dict[str, Any]]:
+def first_outcome(seed: int, settings: Fig7) -> Deferred:
     """The same of the first condition alone."""
     first = dict(list(settings.conditions.items())[:1])
     return outcomes(seed, replace(settings, conditions=first, other_arm=()))

@@ -25,19 +25,21 @@ def replaying(
     bench: Bench, learned: VisuoMotorMap, action: Action
 ) -> tuple[Recall, Iterator[Sample]]:
     """What recalls the action, and the steps of its replay."""
-    cfg, robot, field = bench.cfg, bench.robot, learned.field
-    sequence = bench.empty_sequence()
+    recall, perception = recalling(bench, learned, action), bench.perception(learned.field)
+    enactor, ending = enacting(bench, learned), made_of(Ending, bench.cfg["replay"])
+    return recall, replay(bench.robot, perception, recall, enactor, bench.dynamics, ending)
+
+
+def recalling(bench: Bench, learned: VisuoMotorMap, action: Action) -> Recall:
+    """What recalls the action when a hand is seen at one of its states."""
+    cfg, field, sequence = bench.cfg, learned.field, bench.empty_sequence()
     for state in action.states:
         sequence.learn(state.area, state.time)
     resting, noticing = Resting(**cfg["states"]), Noticing(**cfg["arrivals"])
     arrivals = Arrivals(resting, noticing, field.reachable)
-    loop = Replay(sequence, robot.period)
+    loop, rng = Replay(sequence, bench.robot.period), generator(cfg["seed"], "sequence")
     places = [state.place for state in action.states]
-    rng = generator(cfg["seed"], "sequence")
-    recall = Recall(places, loop, arrivals, field, cfg["sequence"]["noise"], rng)
-    perception, enactor = bench.perception(field), enacting(bench, learned)
-    ending = made_of(Ending, cfg["replay"])
-    return recall, replay(robot, perception, recall, enactor, bench.dynamics, ending)
+    return Recall(places, loop, arrivals, field, cfg["sequence"]["noise"], rng)
 
 
 def enacting(bench: Bench, learned: VisuoMotorMap) -> Enactor:

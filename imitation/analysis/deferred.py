@@ -160,6 +160,16 @@ class DeferredMetrics:
             "object_error_m": _apart(end, self.goal),
         }
 
+    def path(self) -> Array:
+        """The hand's way from the first state it went to until the action ended, (n, 2) [px].
+
+        It begins when the next state is due: before, the arm comes from wherever it rests.
+        """
+        _, asked = self._order()
+        begun = self._predicted.get(asked[1], np.inf) if len(asked) > 1 else np.inf
+        during = [i for i, time in enumerate(self._times) if begun <= time <= self._ended]
+        return np.array([self._hands_px[i] for i in during]).reshape(-1, 2)
+
     def _order(self) -> tuple[Order, list[int]]:
         """How the states after the trigger were entered, and which those are."""
         if self._trigger is None:

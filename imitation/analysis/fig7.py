@@ -1,20 +1,19 @@
 """Fig. 7: an action shown once and reproduced, two successive positions in each picture."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-import numpy as np
 from matplotlib.figure import Figure
 
-from imitation.analysis.claims import Claim, every_claim, value_claim
-from imitation.analysis.deferred import PLACED
-from imitation.analysis.figure_style import FULL_WIDTH, INK, Drawn, style
-from imitation.analysis.statistics import wilson
+from imitation.analysis.fig7_claims import Asked, Deferred, claims_of_fig7
+from imitation.analysis.figure_style import COLOURS, FAINT, FULL_WIDTH, INK, Drawn, style
+from imitation.analysis.triggers import Triggers
+from imitation.analysis.visual_axes import visual_space
 from imitation.arrays import Array, Image
 
 ABOVE = (0.0, 22.0)  # arrows are drawn above the marks, x and y [px of the picture]
-Runs = Sequence[Mapping[str, Mapping[str, Any]]]  # of each seed, by condition: metrics
+PANELS = 1.9  # height of the lowest row [inch]
 
 
 @dataclass(frozen=True)
@@ -33,36 +32,66 @@ class Strip:
     movements: Sequence[Movement]
 
 
-@dataclass(frozen=True)
-class Asked:
-    """What is asked of the replays; the YAML says what each means."""
-
-    grasped: float
-    placed: float
-    median_s: float
-    largest_s: float
-    clock: float
-    tick_s: float
-    resamples: int
-
-
-def draw_fig7(strips: Sequence[Strip], runs: Runs, asked: Asked) -> Drawn:
-    """The strips above each other, and what is claimed of the replays."""
+def draw_fig7(strips: Sequence[Strip], runs: Sequence[Deferred], asked: Asked) -> Drawn:
+    """The strips above each other, what triggers below them, and what is claimed of the replays."""
     count = max(len(strip.movements) for strip in strips)
     height, width, _ = strips[0].movements[0].picture.shape
-    tall = FULL_WIDTH / count * height / width
+    tall = FULL_WIDTH / count * height / width + 0.22
     with style():
-        figure = Figure(figsize=(FULL_WIDTH, len(strips) * (tall + 0.22)))
-        axes = figure.subplots(len(strips), count, squeeze=False)
-        for row, strip in zip(axes, strips, strict=True):
-            row[0].set_title(strip.name, loc="left")
-            for ax in row:
-                ax.set_axis_off()
-            for ax, movement in zip(row, strip.movements, strict=False):
-                ax.imshow(movement.picture)
-                _arrow(ax, movement.way)
-        figure.subplots_adjust(left=0.0, right=1.0, bottom=0.0, top=0.96, wspace=0.02, hspace=0.13)
-    return figure, claims(runs, asked)
+        figure = Figure(figsize=(FULL_WIDTH, len(strips) * tall + PANELS))
+        low = PANELS / figure.get_figheight()
+        grid = figure.add_gridspec(
+            len(strips), count, left=0.0, right=1.0, bottom=low, top=0.96, wspace=0.02, hspace=0.13
+        )
+        for row, strip in enumerate(strips):
+            _strip(figure, grid, row, strip)
+        below = figure.add_gridspec(
+            1, 2, left=0.06, right=0.80, bottom=0.4 / PANELS * low, top=0.83 * low, wspace=0.25
+        )
+        _table(figure.add_subplot(below[0]), runs[0].triggers)
+        _ways(figure.add_subplot(below[1]), runs[0])
+    return figure, claims_of_fig7(runs, asked)
+
+
+def _strip(figure: Figure, grid: Any, row: int, strip: Strip) -> None:
+    for column, movement in enumerate(strip.movements):
+        ax = figure.add_subplot(grid[row, column])
+        ax.set_axis_off()
+        ax.imshow(movement.picture)
+        _arrow(ax, movement.way)
+        if not column:
+            ax.set_title(strip.name, loc="left")
+
+
+def _table(axes: Any, triggers: Triggers) -> None:
+    """What a hand at each place triggers; the states' areas bear their numbers."""
+    visual_space(axes, triggers.field)
+    for state, area in enumerate(triggers.areas):
+        if area is not None:
+            x, y = triggers.field.centres[area]
+            axes.text(x, y, f"{state + 1}", fontsize=12, ha="center", va="center", color=FAINT)
+    for probe in triggers.probes:
+        colour = "white" if probe.triggered is None else COLOURS[probe.triggered]
+        axes.plot(*probe.place, "o", color=colour, markersize=4, markeredgecolor=INK,
+                  markeredgewidth=0.5)  # fmt: skip
+    for state, _ in enumerate(triggers.areas[:-1]):
+        axes.plot([], [], "o", color=COLOURS[state], markersize=4, markeredgecolor=INK,
+                  markeredgewidth=0.5, label=f"state {state + 1}")  # fmt: skip
+    axes.plot([], [], "o", color="white", markersize=4, markeredgecolor=INK, label="nothing")
+    axes.set_title("A hand here triggers the action from", loc="left")
+    axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), handletextpad=0.1)
+
+
+def _ways(axes: Any, run: Deferred) -> None:
+    """The empty hands of both arms, doing the same action."""
+    visual_space(axes, run.triggers.field)
+    for number, (name, path) in enumerate(run.paths.items()):
+        axes.plot(*path.T, color=COLOURS[number], linewidth=1.1, label=name)
+    if run.paths:
+        axes.set_title("The same action by two arms", loc="left")
+        axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
+    else:
+        axes.set_visible(False)
 
 
 def _arrow(ax: Any, way: Array) -> None:
@@ -81,84 +110,3 @@ def _arrow(ax: Any, way: Array) -> None:
             "shrinkB": 3,
         },
     )
-
-
-def claims(runs: Runs, asked: Asked) -> list[Claim]:
-    """What is claimed of the replays."""
-    seen = [run["seen"] for run in runs]
-    rng = np.random.default_rng(0)
-    timing = [np.abs(one["timing_error_s"]) for one in seen if one["timing_error_s"]]
-    value = [
-        ("median", float(asked.median_s), lambda values: float(np.median(values))),
-        ("largest", float(asked.largest_s), lambda values: float(np.max(values))),
-    ]
-    return [
-        every_claim("Order of the states, precision=seen.", _of(seen, "order_correct")),
-        _share("The can is grasped, precision=seen.", _of(seen, "grasped"), asked.grasped),
-        _share(
-            f"The can stands within {100 * PLACED:g} cm of where the demonstrator put it.",
-            _placed(seen),
-            asked.placed,
-        ),
-        *(
-            value_claim(
-                f"Timing error, arm travel included: {name}.",
-                timing,
-                statistic,
-                "at most",
-                bound,
-                "s",
-                rng,
-                asked.resamples,
-            )
-            for name, bound, statistic in value
-        ),
-        every_claim(
-            f"The internal clock is right within {asked.clock:.0%} or one tick.",
-            np.concatenate([_clock_right(one, asked) for one in seen]),
-        ),
-        *_of_other_conditions(runs),
-    ]
-
-
-def _of_other_conditions(runs: Runs) -> list[Claim]:
-    found = []
-    for name in runs[0]:
-        if name == "seen":
-            continue
-        told = [run[name] for run in runs]
-        found.append(every_claim(f"Order of the states: {name}.", _of(told, "order_correct")))
-        placed = _placed(told)
-        if name.startswith("without"):
-            found.append(every_claim(f"Control: the can is not put there {name}.", 1.0 - placed))
-        elif any(one["object_error_m"] is not None for one in told) and "later" not in name:
-            sentence = f"The can stands within {100 * PLACED:g} cm of its goal: {name}."
-            found.append(_share(sentence, placed, 0.0))
-    return found
-
-
-def _of(told: Sequence[Mapping[str, Any]], key: str) -> Array:
-    return np.array([float(bool(one[key])) for one in told])
-
-
-def _placed(told: Sequence[Mapping[str, Any]]) -> Array:
-    errors = [one["object_error_m"] for one in told]
-    return np.array([float(error is not None and error <= PLACED) for error in errors])
-
-
-def _clock_right(told: Mapping[str, Any], asked: Asked) -> Array:
-    errors, delays = told["clock_error_s"], told["delays_s"]
-    return np.array(
-        [
-            float(abs(error) <= max(asked.clock * delay, asked.tick_s) + 1e-9)
-            for error, delay in zip(errors, delays, strict=True)
-        ]
-    )
-
-
-def _share(sentence: str, outcomes: Array, bound: float) -> Claim:
-    """That this share of the seeds is so; 0 asked: it is only told."""
-    n, true = len(outcomes), int(outcomes.sum())
-    interval, rate = wilson(true, n), true / n
-    ends = interval.low, interval.high
-    return Claim(sentence, "at least", bound, rate, *ends, n, "share", rate >= bound)

@@ -43,7 +43,7 @@ class Told:
 def imitate(learned, action, *words, seed=0):
     """Metrics and events of `imitate replay robot=ideal WORDS`."""
     told = Told()
-    return replayed(seed, learned, action, IDEAL, "~object", *words, look=told), told
+    return replayed(seed, learned, action, IDEAL, "~object", *words, look=told).result(), told
 
 
 @pytest.mark.parametrize("precision", ["area", "seen"])
@@ -168,21 +168,21 @@ def katana():
 
 
 def test_the_can_is_grasped_carried_and_put_where_the_demonstrator_put_it(katana, action):
-    metrics = replayed(0, katana, action, "object.scatter=0.01")
+    metrics = replayed(0, katana, action, "object.scatter=0.01").result()
     assert metrics["order_correct"]
     assert metrics["grasped"]
     assert metrics["object_error_m"] < 0.04
 
 
 def test_a_gripper_without_force_does_not_carry_the_can(katana, action):
-    metrics = replayed(0, katana, action, "robot.arm.gripper.force=0")
+    metrics = replayed(0, katana, action, "robot.arm.gripper.force=0").result()
     assert metrics["order_correct"]
     assert not metrics["grasped"]
 
 
 @pytest.mark.slow
 def test_without_a_can_the_arm_does_the_same_with_an_empty_hand(katana, action):
-    metrics = replayed(0, katana, action, "~object")
+    metrics = replayed(0, katana, action, "~object").result()
     assert metrics["order_correct"]
     assert not metrics["grasped"]
     assert metrics["object_error_m"] is None
