@@ -50,7 +50,6 @@ class Driving(Section):
     patience: Positive
     following: Positive
     overdue: Positive
-    lead: NotNegative
     finger_speed: Positive
     yielding: Positive
     unsure: Whole

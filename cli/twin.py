@@ -28,8 +28,8 @@ from imitation.robots.twin import CAMERA_FAULTS, Emulated, Twin
 RATE, QUALITY = 25.0, 100  # of the camera: pictures per second [Hz], quality of its JPEGs
 KATANA = "katana"
 FAULTS = {KATANA: katana_emulator.FAULTS, "so101": servo_bus_emulator.FAULTS}
-# What a Katana of each model must be told, and nothing for the usual one.
-TYPED = {"300": "robot.arm.model=300 period=0.36 ", "400": "", "450": "robot.arm.model=450 "}
+# How a Katana of each model is asked for.
+TYPED = {"300": "katana_300", "400": KATANA, "450": f"{KATANA} robot.arm.model=450"}
 # Commands that watch a demonstrator, each from its own gaze, and what they must be told.
 WATCHING = {"demo-record": (), "mimic": ("map=given",), "replay": ("map=given", "action=given")}
 WITH_OBJECT = ("demo-record", "replay")
@@ -65,8 +65,8 @@ def twin(asked: Asked) -> int:
     neck = Server(board)
     neck.open_pty(asked.pty)
     stream = MjpegServer(asked.stream_port)
-    typed = f"robot={robot} {TYPED[asked.model] if robot == KATANA else ''}"
-    _tell(f"{typed}robot.arm.address={arm.where}", stream.url, neck.where)
+    typed = TYPED[asked.model] if robot == KATANA else robot
+    _tell(f"robot={typed} robot.arm.address={arm.where}", stream.url, neck.where)
     threads = [threading.Thread(target=one.serve, daemon=True) for one in (arm, neck)]
     for thread in threads:
         thread.start()

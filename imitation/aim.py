@@ -54,7 +54,8 @@ class Aim:
         else:
             # The faster the hand moves, the older grows what was seen before.
             moved = float(np.linalg.norm(expected - self._expected))
-            rate = max(self.period / self.settling, moved / (moved + self.noise))
+            resting = min(self.period / self.settling, 1.0)
+            rate = max(resting, moved / (moved + self.noise))
             self._error = self._error + rate * (error - self._error)
         self._expected = expected
 

@@ -13,10 +13,12 @@ import pytest
 from imitation.recording.mcap_recording import Recording
 
 PROGRAM = [sys.executable, "-c", "from cli.main import main; main()"]
-SWIFT = ("robot.approach.share=1", "robot.arm.speed=[1.5,1.0,1.0,1.5,1.5]", "--yes")
+STEADY = ("robot.approach.share=1", "--yes")
+SWIFT = (*STEADY, "robot.arm.speed=[1.5,1.0,1.0,1.5,1.5]")
 TWINS = {  # how each twin is started
     "400": (),
     "450": ("--model", "450"),
+    "300": ("--model", "300", "--arm-pty", "arm"),
     "so101": ("robot=so101", "--arm-pty", "arm"),
 }
 
@@ -78,11 +80,12 @@ def test_an_so101_behind_its_bus_begins_to_learn(tmp_path):
 @pytest.mark.timeout(600)
 @pytest.mark.parametrize("kind", TWINS)
 def test_a_map_learned_through_the_wire_reaches(kind, tmp_path):
+    pace = STEADY if kind == "300" else SWIFT
     with twin(tmp_path, *TWINS[kind]) as there:
-        imitate(tmp_path, "learn-map", *there, *SWIFT, "out=map")
+        imitate(tmp_path, "learn-map", *there, *pace, "out=map")
         learned = json.loads((tmp_path / "map" / "metrics.json").read_text())
         assert learned["areas_learned"] >= 14
-        reached = imitate(tmp_path, "reach", "map=map", "trials=6", *there, *SWIFT, "out=reach")
+        reached = imitate(tmp_path, "reach", "map=map", "trials=6", *there, *pace, "out=reach")
     assert reached.returncode == 0, reached.stderr
     metrics = json.loads((tmp_path / "reach" / "metrics.json").read_text())
     assert all(trial["final_distance_px"] < 3 for trial in metrics["trials"])

@@ -71,6 +71,13 @@ def test_at_rest_errors_are_averaged_over_the_settling_time():
     assert aimed_at(only) == pytest.approx(TARGET - (5.0 * 0.04 / 0.1, 0.0), abs=1e-3)
 
 
+def test_periods_longer_than_the_settling_time_correct_by_the_newest_error_and_no_more():
+    controller = corrected_aim(settling=0.01)
+    for step, error in enumerate((6.0, 2.0)):
+        only = decide(controller, step, posture_of(TARGET), np.add(TARGET, (error, 0.0)))
+    assert aimed_at(only) == pytest.approx(TARGET - (2.0, 0.0), abs=1e-3)
+
+
 def test_a_moved_hand_forgets_old_errors_by_how_far_it_moved():
     controller = corrected_aim(settling=100.0)
     decide(controller, 0, posture_of(TARGET), TARGET)

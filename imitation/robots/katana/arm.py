@@ -12,7 +12,7 @@ from imitation.robots.katana.commands import TICK, Flag, as_segments
 from imitation.robots.katana.driver import Katana, refuse_crashed
 from imitation.robots.katana.frames import BadReplyError
 from imitation.robots.katana.sensors import GripperSensing
-from imitation.robots.katana.start import FASTEST, Settings, make_ready
+from imitation.robots.katana.start import ACCELERATION, FASTEST, Settings, make_ready
 from imitation.robots.keeping_up import KeepingUp
 
 
@@ -163,8 +163,9 @@ class KatanaArm:
             target[:] = self.katana.positions()
 
     def _each_towards(self, target: Array, period: float) -> None:
-        # Each motor brakes before its target: one that goes on is sent further.
-        further = (target - self._sent) / period * self._settings.lead
+        # Each motor brakes before its target: one that goes on is sent as much further.
+        speed = (target - self._sent) / period * TICK
+        further = np.sign(speed) * speed**2 / (2 * ACCELERATION)
         ahead = np.clip(np.round(target + further), self._lower, self._upper)
         for motor, moves in enumerate(ahead != self._ahead, 1):
             if moves:

@@ -24,7 +24,6 @@ class Settings:
         patience: How long one search for a stop may take [s].
         following: How far a joint may be from where it was sent [rad].
         overdue: For how long it may be [s].
-        lead: How far ahead of its commands a 300 is sent [s].
         finger_speed: Of the gripper [share of its way / s].
         yielding: How far the gripper may stay behind when it closes on something [share].
         unsure: How often in a row a reply to a movement may be lost.
@@ -35,7 +34,6 @@ class Settings:
     patience: float
     following: float
     overdue: float
-    lead: float
     finger_speed: float
     yielding: float
     unsure: int
