@@ -12,6 +12,7 @@ from rich.console import Console
 from rich.table import Table
 
 from cli.errors import DONE
+from cli.following import reach_with, replay_of
 from cli.settings import settings
 from imitation.analysis.seal import broken, cited
 from imitation.recording.mcap_recording import Recording
@@ -20,10 +21,6 @@ from imitation.recording.survey import Survey, survey
 MOST = 6  # settings or results that are named one by one
 CADENCE = ("late_ticks", "achieved_rate_hz", "frames_used")
 BESIDE = ("command", "status", "seed", "robot_time_s", "wall_time_s", "steps", *CADENCE)
-NEXT = {
-    "learn-map": "imitate reach map={run}",
-    "demo-record": "imitate replay map=MAP action={run}",
-}
 
 
 def inspect(run: Path, as_json: bool) -> int:
@@ -88,9 +85,12 @@ def following(recording: Recording, metrics: Mapping[str, Any]) -> Iterator[str]
         return
     yield f"imitate verify {run}"
     yield f"imitate view {run}"
-    command = recording.metadata["run"].get("command", "")
-    if command in NEXT and metrics.get("status") == "done":
-        yield NEXT[command].format(run=run)
+    told = recording.metadata["run"]
+    robot, done = told.get("robot", ""), metrics.get("status") == "done"
+    if told.get("command") == "learn-map" and done:
+        yield reach_with(run, [f"robot={robot}"])
+    if told.get("command") == "demo-record" and done:
+        yield replay_of(run, robot, [f"robot={robot}"])
 
 
 def show(told: Mapping[str, Any], found: Survey) -> None:

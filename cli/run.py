@@ -81,13 +81,6 @@ class Run:
         self.bench = Bench(self.cfg)
 
     @property
-    def body_words(self) -> list[str]:
-        """Which of the typed words chose the body: a command that follows needs them too."""
-        return [
-            shlex.quote(word) for word in self.typed if word.startswith(("robot", "camera", "neck"))
-        ]
-
-    @property
     def cadence(self) -> list[tuple[str, str]]:
         """What is printed of how time was kept; nothing in simulation, where it cannot be lost."""
         rate = self._cadence.rate

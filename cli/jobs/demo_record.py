@@ -7,6 +7,7 @@ import hydra
 from omegaconf import DictConfig
 
 from cli.build import Bench
+from cli.following import replay_of
 from cli.job import job
 from cli.provenance import program_version
 from cli.run import Outcome, Run
@@ -33,7 +34,7 @@ def watch(run: Run) -> Outcome:
     delays = [round(later.time - state.time, 6) for state, later in pairwise(states)]
     played, complaint = play(run.bench, states)
     errors = [round(again - delay, 6) for again, delay in zip(played, delays, strict=False)]
-    replay = " ".join(["imitate replay map=MAP action={run}", *run.body_words])
+    replay = replay_of("{run}", run.cfg["robot"]["name"], run.typed)
     return Outcome(
         metrics={"states": len(states), "delays_s": delays, "clock_error_s": errors},
         rows=rows(states, delays),

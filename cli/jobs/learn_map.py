@@ -7,6 +7,7 @@ import numpy as np
 from omegaconf import DictConfig
 
 from cli.build import Bench
+from cli.following import reach_with
 from cli.guide import guide, typed_answer, write_guided
 from cli.job import job
 from cli.run import Outcome, Run
@@ -36,7 +37,7 @@ def learn(run: Run) -> Outcome:
     return Outcome(
         metrics=metrics,
         rows=map_card(metrics),
-        next=" ".join(["imitate reach map={run}", *run.body_words]),
+        next=reach_with("{run}", run.typed),
         complaint=complaint(metrics, limit),
     )
 

@@ -1,6 +1,7 @@
 """`imitate demo-record`, as a user types it."""
 
 import json
+import shlex
 from pathlib import Path
 
 import pytest
@@ -42,7 +43,21 @@ def test_the_recording_holds_an_event_for_each_state(recorded):
 def test_it_names_the_states_and_the_command_to_type_next(recorded):
     out = (recorded / "stdout").read_text()
     assert "area [2, 2]" in out
-    assert f"imitate replay map=MAP action={recorded} robot=ideal" in out
+    learn = "imitate learn-map out=data/runs/map robot=ideal"
+    assert f"{learn} && imitate replay map=data/runs/map action={recorded} robot=ideal" in out
+
+
+def test_what_it_says_to_type_next_can_be_typed(imitate):
+    words = ("robot=ideal", "camera.noise_px=0.2", "'vision.hue=[169,11]'")
+    result = imitate("demo-record", *(word.strip("'") for word in words))
+    [said] = [line for line in result.stdout.splitlines() if line.startswith("next")]
+    for command in said.removeprefix("next").split("&&"):
+        program, *typed = shlex.split(command)
+        assert program == "imitate"
+        assert imitate(*typed).exit_code == 0, command
+    assert words[-1] in said
+    again = imitate("demo-record", "robot=ideal").stdout
+    assert "next   imitate replay map=data/runs/map action=data/runs/demo-record/" in again
 
 
 def test_without_a_demonstration_the_exit_code_is_1_and_there_is_no_action(imitate):

@@ -1,0 +1,46 @@
+"""Which command follows a run, so that it can be typed as it stands."""
+
+import os
+import shlex
+from collections.abc import Sequence
+from pathlib import Path
+
+import yaml
+
+BODY = ("robot=", "robot.", "neck=", "neck.", "period=")  # words that choose the arm
+SIGHT = ("camera", "vision")  # words that choose what is seen
+FIRST_MAP = "data/runs/map"
+
+
+def reach_with(run: str, typed: Sequence[str]) -> str:
+    """To reach with the map of a run that was told the words `typed`."""
+    return _command("reach", f"map={run}", *_chosen(typed, BODY + SIGHT))
+
+
+def replay_of(run: str, robot: str, typed: Sequence[str]) -> str:
+    """To replay the action of a run, with a map of the same robot: one must be learned at first."""
+    body, sight = _chosen(typed, BODY), _chosen(typed, SIGHT)
+    known = newest_map(robot)
+    replay = _command("replay", f"map={known or FIRST_MAP}", f"action={run}", *body, *sight)
+    if known:
+        return replay
+    return f"{_command('learn-map', f'out={FIRST_MAP}', *body)} && {replay}"
+
+
+def newest_map(robot: str) -> str | None:
+    """Folder of the newest map of a robot in data/runs; None: there is none."""
+    runs = Path("data/runs")
+    maps = [path for depth in ("*", "*/*", "*/*/*") for path in runs.glob(f"{depth}/map.npz")]
+    for path in sorted(maps, key=lambda one: one.stat().st_mtime, reverse=True):
+        told = path.with_name("config.yaml")
+        if told.is_file() and yaml.safe_load(told.read_text())["robot"]["name"] == robot:
+            return shlex.quote(os.fspath(path.parent))
+    return None
+
+
+def _chosen(typed: Sequence[str], words: tuple[str, ...]) -> list[str]:
+    return [shlex.quote(word) for word in typed if word.startswith(words)]
+
+
+def _command(name: str, *words: str) -> str:
+    return " ".join(["imitate", name, *words])
