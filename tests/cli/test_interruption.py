@@ -56,3 +56,21 @@ def test_a_signal_ends_a_whole_sweep(tmp_path, learned, launcher):
     assert begun
     assert all(Recording.open(path).whole for path in begun)
     assert not (tmp_path / "sweep" / "3").exists()
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_a_signal_while_the_program_is_loaded_ends_it_quietly(number):
+    program = f"""
+import os, sys
+from cli.start import main
+
+class Signalled:
+    def find_spec(self, name, *more):
+        if name == "typer":
+            os.kill(os.getpid(), {int(number)})
+
+sys.meta_path.insert(0, Signalled())
+main()
+"""
+    told = subprocess.run([sys.executable, "-c", program], capture_output=True, timeout=30)
+    assert (told.returncode, told.stdout, told.stderr) == (130, b"", b"")

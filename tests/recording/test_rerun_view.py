@@ -90,6 +90,13 @@ def test_cut_recording_is_shown_up_to_the_cut(record, tmp_path):
     assert (tmp_path / "run.rrd").stat().st_size > 10_000
 
 
+def test_a_view_that_was_not_finished_is_not_kept(record, tmp_path):
+    path = record(attachments={"map.npz": b"no map"})
+    with pytest.raises(ValueError, match="pickled"):
+        derive(path, tmp_path / "run.rrd")
+    assert not list(tmp_path.rglob("*.rrd"))
+
+
 def test_recording_without_a_step_is_refused_in_one_sentence(tmp_path):
     made_up.recorder(tmp_path / "run.mcap").close()
     with pytest.raises(ValueError, match="holds no step"):

@@ -31,6 +31,15 @@ def derive(run: Path, rrd: Path, demonstration: Path | None = None) -> None:
         OSError: `rrd` cannot be written.
     """
     recording = Recording.open(run)
+    unfinished = rrd.with_name(f".{rrd.name}")  # one that was interrupted must not be shown
+    try:
+        _draw(recording, unfinished, demonstration)
+        unfinished.replace(rrd)
+    finally:
+        unfinished.unlink(missing_ok=True)
+
+
+def _draw(recording: Recording, rrd: Path, demonstration: Path | None) -> None:
     shown = Overview.of(recording)
     stream = rr.RecordingStream("imitation", send_properties=False)
     stream.save(rrd, default_blueprint=blueprint(shown, demonstration is not None))
