@@ -56,6 +56,7 @@ def checked(command: str, composed: DictConfig) -> Config:
         for path, target in targets(model, ()):
             check_target(target, path, cfg)
         check_joints(cfg.get("robot"))
+        check_shown(cfg)
     except ValidationError as error:
         raise UserError(in_words(command, error, cfg, ())) from None
     plain: Config = cfg
@@ -125,6 +126,17 @@ def check_joints(robot: Config | None) -> None:
     for key, values in given.items():
         if values is not None and len(values) != count:
             raise UserError(f"{key} needs {count} numbers, one a joint; got {_short(values)}")
+
+
+def check_shown(cfg: Config) -> None:
+    """Check that a hand that is to be seen is shown inside the image."""
+    place = cfg.get("demonstrator", {}).get("place")
+    size = cfg.get("camera", {}).get("size")
+    if place and not all(0 <= one <= most for one, most in zip(place, size, strict=True)):
+        raise UserError(
+            f"demonstrator.place={_short(place)}: outside the image, where nobody is seen; x is "
+            f"0 to {size[0]} px, y 0 to {size[1]} px"
+        )
 
 
 def in_words(

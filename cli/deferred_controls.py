@@ -12,6 +12,7 @@ from cli.build import Config
 from cli.deferred_runs import Stage, judged
 from cli.every_seed import on_every_seed
 from cli.replaying import exploring, replaying
+from cli.report import verdict
 from cli.run import Outcome
 from imitation.analysis.deferred import acts_done, all_in_order
 from imitation.analysis.statistics import bootstrap, wilson
@@ -104,6 +105,7 @@ def with_controls(told: Outcome, rows: Sequence[dict[str, Any]]) -> Outcome:
     ]
     true, *others = rows
     worse = all(true["target_acts_95"][0] > other["target_acts_95"][1] for other in others)
+    shown.append(("beyond all controls", verdict(worse)))
     complaint = told.complaint
     if not worse:
         complaint = "a control does as well as the demonstrated action"

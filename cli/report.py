@@ -22,3 +22,8 @@ def show(command: str, folder: Path, outcome: Outcome, cadence: list[tuple[str, 
     files = " ".join(sorted(path.name for path in folder.iterdir()))
     console.print(f"files  {where}/  {files}", markup=False)
     console.print(f"next   {outcome.next.format(run=shlex.quote(where))}", markup=False)
+
+
+def verdict(passed: bool) -> str:
+    """Whether what was asked came true, in a word."""
+    return "passed" if passed else "failed"

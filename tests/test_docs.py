@@ -1,7 +1,9 @@
 """What the documents say is so."""
 
+import ast
 import re
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -46,3 +48,22 @@ def test_every_topic_is_on_the_page(run):
     for topic, kind in Recording.open(run).topics.items():
         assert f"`{topic}`" in page
         assert kind.type.rpartition("/")[2] in page
+
+
+def test_every_kind_of_event_is_on_the_page():
+    page = (DOCS / "recording.md").read_text()
+    table = page.partition("### Kinds of events")[2].partition("\n\nThe names")[0]
+    listed = {kind for row in re.findall(r"^\| (`.*?) \|", table, re.MULTILINE)
+              for kind in re.findall(r"`(\w+)`", row)}  # fmt: skip
+    assert listed == set(told_kinds())
+
+
+def told_kinds() -> Iterator[str]:
+    """The kinds that the code tells: the first argument of every Event or `_told`."""
+    root = DOCS.parent
+    for path in [*(root / "imitation").rglob("*.py"), *(root / "cli").rglob("*.py")]:
+        for node in ast.walk(ast.parse(path.read_text())):
+            if isinstance(node, ast.Call) and getattr(node.func, "id", "") in ("Event", "_told"):
+                first = node.args[0] if node.args else None
+                if isinstance(first, ast.Constant) and isinstance(first.value, str):
+                    yield first.value

@@ -11,6 +11,7 @@ from cli.every_seed import on_every_seed
 from cli.experiments import composed
 from cli.jobs.reach import the_map
 from cli.mimic_runs import judged, measured, shuffled_correlations
+from cli.report import verdict
 from cli.run import Outcome, Run
 from imitation.arrays import Array
 from imitation.perception import Percept
@@ -74,18 +75,24 @@ def outcome(
         own: The same in the run that imitates [px].
         asked: Of the configuration.
     """
-    bound = float(np.quantile(null, asked["quantile"]))
+    bound, far = float(np.quantile(null, asked["quantile"])), asked["still"]
+    imitated = told["correlation"] > bound  # nan is not
     wrong = [
-        f"{name}: the arm went {far:.1f} px all the same"
-        for name, far in travelled.items()
-        if far > asked["still"]
+        f"{name}: the arm went {gone:.1f} px all the same"
+        for name, gone in travelled.items()
+        if gone > far
     ]
-    if not told["correlation"] > bound:
-        wrong.append(f"correlation {told['correlation']:.3f} is not above {bound:.3f}")
-    rows = [("hand shown", f"correlation {told['correlation']:.3f}, the arm goes {own:.1f} px")]
-    rows += [(name, f"the arm goes {far:.1f} px") for name, far in travelled.items()]
+    correlated = f"correlation {told['correlation']:.3f}"
+    if not imitated:
+        wrong.append(f"{correlated} is not above {bound:.3f}")
+    rows = [("hand shown", f"{correlated}, the arm goes {own:.1f} px")]
+    rows += [
+        (name, f"the arm goes {gone:.1f} px; asked {far:g} px at most: {verdict(gone <= far)}")
+        for name, gone in travelled.items()
+    ]
     spread = f"median {np.median(null):.3f}, {asked['quantile']:.0%} below {bound:.3f}"
     rows.append((f"{len(null)} shuffled maps", f"correlation {spread}"))
+    rows.append(("more than by chance", f"{correlated} above {bound:.3f}: {verdict(imitated)}"))
     found = {
         "travelled_px": {"hand shown": own, **travelled},
         "shuffled_correlation": null,

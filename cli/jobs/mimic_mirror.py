@@ -5,6 +5,7 @@ from dataclasses import asdict
 from cli import stages
 from cli.jobs.reach import the_map
 from cli.mimic_runs import mirrored
+from cli.report import verdict
 from cli.run import Outcome, Run
 from imitation.analysis.mirror import corrects_against, follows, grows
 
@@ -15,15 +16,12 @@ def mirror(run: Run) -> Outcome:
     run.record(stages.drawing(run.bench, learned), learned.field)
     found = mirrored(run.cfg, learned)
     against, growing, following = corrects_against(found), grows(found), follows(found)
-    wrong = [
-        sentence
-        for true, sentence in (
-            (against, "the drawing arm did not go to the other side"),
-            (growing, "a larger deviation did not move it farther"),
-            (following, "the following arm did not go to the same side"),
-        )
-        if not true
-    ]
+    asked = {
+        "the drawing arm goes to the other side": against,
+        "the more, the farther": growing,
+        "the following arm goes to the same side": following,
+    }
+    wrong = [sentence for sentence, true in asked.items() if not true]
     rows = [
         (
             f"hand seen {one.deviation_px:g} px aside",
@@ -31,10 +29,11 @@ def mirror(run: Run) -> Outcome:
         )
         for one in found
     ]
+    rows += [(sentence, verdict(true)) for sentence, true in asked.items()]
     told = {"opposite": against, "grows": growing, "homeostat_same_side": following}
     return Outcome(
         metrics={"mirror": [asdict(one) for one in found], **told},
         rows=rows,
         next="imitate view {run}",
-        complaint="; ".join(wrong) or None,
+        complaint=f"did not come true: {'; '.join(wrong)}" if wrong else None,
     )

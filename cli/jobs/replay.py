@@ -73,20 +73,24 @@ def deferred_metrics(bench: Bench, learned: VisuoMotorMap, action: Action) -> De
 
 def outcome(metrics: dict[str, Any], states: int) -> Outcome:
     """What is told of the replay."""
+    begun = metrics["triggered_at_s"] is not None
     return Outcome(
         metrics=metrics,
-        rows=[
-            ("triggered", _triggered(metrics, states)),
-            ("states entered", f"{metrics['states_replayed']} of {metrics['states_asked']}"),
-            ("in order", "yes" if metrics["order_correct"] else "no"),
-            ("timing error", _largest(metrics["timing_error_s"])),
-            ("clock error", _largest(metrics["clock_error_s"])),
-            ("grasped", GRASPED[metrics["grasped"]]),
-            ("object to goal", _centimetres(metrics["object_error_m"])),
-        ],
+        rows=[("triggered", _triggered(metrics, states)), *(_done(metrics) if begun else [])],
         next="imitate view {run}",
         complaint=_complaint(metrics),
     )
+
+
+def _done(metrics: dict[str, Any]) -> list[tuple[str, str]]:
+    return [
+        ("states entered", f"{metrics['states_replayed']} of {metrics['states_asked']}"),
+        ("in order", "yes" if metrics["order_correct"] else "no"),
+        ("timing error", _largest(metrics["timing_error_s"])),
+        ("clock error", _largest(metrics["clock_error_s"])),
+        ("grasped", GRASPED[metrics["grasped"]]),
+        ("object to goal", _centimetres(metrics["object_error_m"])),
+    ]
 
 
 def _complaint(metrics: dict[str, Any]) -> str | None:
@@ -108,7 +112,7 @@ def _learned(learned: VisuoMotorMap, place: Any) -> Area | None:
 
 def _triggered(metrics: dict[str, Any], states: int) -> str:
     if metrics["triggered_at_s"] is None:
-        return "no"
+        return "no: the arm rested all the time"
     state = metrics["triggered_by_state"] + 1
     return f"at {metrics['triggered_at_s']:.2f} s, by a hand at state {state} of {states}"
 

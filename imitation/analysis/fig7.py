@@ -104,9 +104,9 @@ def _arrow(ax: Any, way: Array) -> None:
             "arrowstyle": "-|>",
             "linewidth": 1.4,
             "color": INK,
-            "mutation_scale": 9,
+            "mutation_scale": 7,
             "connectionstyle": "arc3,rad=0.15",
-            "shrinkA": 3,
-            "shrinkB": 3,
+            "shrinkA": 0,
+            "shrinkB": 0,
         },
     )

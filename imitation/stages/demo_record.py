@@ -62,5 +62,5 @@ def _told(state: VisualState, number: int, before: list[VisualState]) -> Event:
     return Event(
         "state",
         f"state {number}: the hand rests in area {area}, at {place} px{since}",
-        {"state": number, "area": area, "seen_px": place, "delay_s": delay},
+        {"state": number - 1, "area": area, "seen_px": place, "delay_s": delay},
     )

@@ -22,6 +22,10 @@ TYPED = [
     (["learn-map", "robot.arm.sped=1"], ["robot.arm.sped", "robot.arm.speed"]),
     (["learn-map", "+robot.foo=1"], ["unknown key robot.foo"]),
     (["learn-map", "+robot.arm.foo=1"], ["unknown key robot.arm.foo"]),
+    (
+        ["mimic", "map=x", "demonstrator=trigger", "demonstrator.place=[200,75]"],
+        ["outside", "0 to 160"],
+    ),
     (["learn-map", "robot=idael"], ["idael", "did you mean ideal", "katana_sim"]),
     (["learn-map", "hydra/launcher=slurm"], ["slurm", "submitit_slurm"]),
     (["learn-map", "seed=abc"], ["seed=abc", "whole number"]),
