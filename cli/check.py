@@ -12,8 +12,9 @@ from pydantic import BaseModel, ConfigDict, ValidationError, create_model
 from cli.build import Config
 from cli.errors import UserError, nearest
 from cli.keys import comments
+from cli.kinds import Target
 from cli.ranges import RANGES
-from cli.schema import COMMANDS, Target
+from cli.schema import COMMANDS
 
 # Given by cli/build.py when asked for.
 SUPPLIED = {

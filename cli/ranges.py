@@ -4,7 +4,7 @@ from typing import Annotated, Any, Literal, get_type_hints
 
 from pydantic import Field as Within
 
-from cli.schema import (
+from cli.kinds import (
     ByteRange,
     Colour,
     Count,
