@@ -17,6 +17,7 @@ from cli.settings import settings
 from imitation.analysis.seal import broken, cited
 from imitation.recording.mcap_recording import Recording
 from imitation.recording.survey import Survey, survey
+from imitation.robot import SECOND
 
 MOST = 6  # settings or results that are named one by one
 CADENCE = ("late_ticks", "achieved_rate_hz", "frames_used")
@@ -37,7 +38,7 @@ def inspect(run: Path, as_json: bool) -> int:
             "type": topic.type,
             "messages": topic.messages,
             "rate_hz": topic.rate,
-            "largest_gap_s": topic.gap_ns / 1e9,
+            "largest_gap_s": topic.gap_ns / SECOND,
             "bytes": topic.bytes,
         }
         for name, topic in sorted(found.topics.items())
@@ -108,7 +109,7 @@ def show(told: Mapping[str, Any], found: Survey) -> None:
     for name, topic in sorted(found.topics.items()):
         rate = "" if topic.rate is None else f"{topic.rate:.4g}"
         kind = topic.type.rpartition("/")[2]
-        gap = f"{topic.gap_ns / 1e9:.3g}"
+        gap = f"{topic.gap_ns / SECOND:.3g}"
         table.add_row(name, kind, str(topic.messages), rate, gap, size(topic.bytes))
     console.print(table)
     for number, command in enumerate(told["next"]):

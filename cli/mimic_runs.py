@@ -13,7 +13,7 @@ from imitation.analysis.mimic_metrics import Judging, MimicMetrics
 from imitation.analysis.mirror import Aside, aside
 from imitation.arrays import Array, Mask
 from imitation.perception import Percept, Perception
-from imitation.robot import Observation
+from imitation.robot import SECOND, Observation
 from imitation.robots.blind_camera import BlindCamera
 from imitation.sample import Sample
 from imitation.stages.mimic import mimic
@@ -129,6 +129,6 @@ def _path(cfg: Config, learned: VisuoMotorMap, stage: Stage) -> tuple[Array, Arr
     with closing(bench.robot) as robot:
         for _ in stage(bench, learned):
             for truth in robot.truth():
-                times.append(truth.time_ns / 1e9)
+                times.append(truth.time_ns / SECOND)
                 places.append(truth.hand_px)
     return np.array(times), np.array(places)

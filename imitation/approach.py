@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from imitation.arrays import Array
-from imitation.clock import WallClock
+from imitation.clock import SECOND, WallClock
 from imitation.device import DeviceError
 from imitation.dynamics import able_to_stop
 from imitation.guard import Guard
@@ -36,7 +36,7 @@ def lead(arm: "Arm", guard: Guard, target: Array, period_ns: int, how: Approach)
     Raises:
         DeviceError: The guard does not let it get there, or the arm does not move.
     """
-    clock, period = WallClock(period_ns), period_ns / 1e9
+    clock, period = WallClock(period_ns), period_ns / SECOND
     clock.begin()
     # Planned ahead of what is sensed: a real arm senses itself late.
     planned, before = arm.read().posture, np.zeros(len(target))

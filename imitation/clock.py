@@ -3,6 +3,8 @@
 import time
 from typing import Protocol
 
+SECOND = 1_000_000_000  # [ns]
+
 
 class Clock(Protocol):
     """Tells the run's time [ns]; its first episode begins at 0, and it never goes back."""
@@ -69,7 +71,7 @@ class WallClock:
         self._deadline_ns += self._period_ns
         ahead = self._start_ns + self._deadline_ns - time.monotonic_ns()
         if ahead > 0:
-            time.sleep(ahead / 1e9)
+            time.sleep(ahead / SECOND)
         else:
             self.late += 1
             self._deadline_ns += -ahead // self._period_ns * self._period_ns

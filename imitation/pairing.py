@@ -4,13 +4,14 @@ from bisect import bisect_left
 from collections import deque
 
 from imitation.arrays import Array
+from imitation.clock import SECOND
 
 
 class PostureHistory:
     """The postures of the last `span` seconds, to be asked by time."""
 
     def __init__(self, span: float) -> None:
-        self._span_ns = round(span * 1e9)
+        self._span_ns = round(span * SECOND)
         self._times: deque[int] = deque()
         self._postures: deque[Array] = deque()
 

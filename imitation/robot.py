@@ -7,10 +7,9 @@ import numpy as np
 
 from imitation.approach import Approach, lead
 from imitation.arrays import Array, Image
+from imitation.clock import SECOND as SECOND
 from imitation.clock import Clock, SimulatedClock, WallClock
 from imitation.guard import Guard
-
-SECOND = 1_000_000_000  # [ns]
 
 
 @dataclass(frozen=True)

@@ -8,6 +8,7 @@ import numpy as np
 
 from imitation.recording import messages
 from imitation.recording.step_messages import Message, Topic
+from imitation.robot import SECOND
 
 TRUTH = "/truth/"  # beginning of the topics that no decision rests on
 TERMS = {
@@ -44,7 +45,7 @@ class Difference:
         """The difference in one line."""
         by = f", off by {self.size:.3g}" if np.isfinite(self.size) else ""
         return (
-            f"at {self.time_ns / 1e9:.3f} s on {self.topic}, {self.term}: "
+            f"at {self.time_ns / SECOND:.3f} s on {self.topic}, {self.term}: "
             f"recorded {self.recorded}, recomputed {self.recomputed}{by}"
         )
 

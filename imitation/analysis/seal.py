@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 from imitation.recording.digest import OVERALL, Digest
 from imitation.recording.mcap_recording import Recording
+from imitation.robot import SECOND
 
 CITED = 20  # hexadecimal digits of a digest: 80 bits
 
@@ -21,7 +22,7 @@ class Break:
         """The break in one line."""
         return (
             f"{self.topic} was changed after it was written, "
-            f"between {self.from_ns / 1e9:.2f} and {self.to_ns / 1e9:.2f} s"
+            f"between {self.from_ns / SECOND:.2f} and {self.to_ns / SECOND:.2f} s"
         )
 
 

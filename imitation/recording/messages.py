@@ -11,10 +11,10 @@ from numpy.typing import NDArray
 from rosbags.serde import SerdeError
 from rosbags.typesys import Stores, get_typestore
 
+from imitation.clock import SECOND
 from imitation.recording.json_file import plain
 
 STORE: Any = get_typestore(Stores.ROS2_JAZZY)
-SECOND = 1_000_000_000  # [ns]
 
 IMAGE = "sensor_msgs/msg/Image"
 COMPRESSED_IMAGE = "sensor_msgs/msg/CompressedImage"
