@@ -2,9 +2,8 @@
 
 import sys
 from collections.abc import Callable, Sequence
-from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
-from multiprocessing import get_context
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -12,10 +11,10 @@ import numpy as np
 from hydra import compose, initialize_config_module
 from omegaconf import OmegaConf
 from rich.console import Console
-from rich.progress import track
 from rich.table import Table
 
 from cli.build import Bench, Config, generator
+from cli.every_seed import on_every_seed
 from cli.experiments import composed
 from cli.jobs.learn_map import learned_by
 from cli.jobs.reach import reaching, trials_of
@@ -158,29 +157,25 @@ def measure(cfg: Config) -> dict[str, list[dict[str, Any]]]:
     seeds = range(cfg["first_seed"], cfg["first_seed"] + cfg["seeds"])
     found: dict[str, list[dict[str, Any]]] = {"learning": [], "reaching": []}
     maps: dict[str, list[Learned]] = {}
-    with ProcessPoolExecutor(cfg["workers"], mp_context=get_context("spawn")) as pool:
-
-        def each(work: Callable[..., Any], tasks: Sequence[Any], what: str) -> list[Any]:
-            return list(track(pool.map(work, tasks), what, len(tasks), console=STDERR))
-
-        for name, words in cfg["learning"].items():
-            runs = each(learn_one, [(seed, words) for seed in seeds], f"learn: {name}")
-            maps.setdefault(runs[0].stored.map.field.name, runs)
-            found["learning"].append(told_of_learning(name, runs))
-            write(cfg, found)
-        for field in cfg["fields"]:
-            for name, words in cfg["reaching"].items():
-                for places in (False, True) if name in cfg["learned_places"] else (False,):
-                    tasks = [
-                        (seed, run.stored, words, cfg["targets"], places)
-                        for seed, run in zip(seeds, maps[field], strict=True)
-                    ]
-                    called = f"{name}, learned places" if places else name
-                    results = each(reach_one, tasks, f"reach: {called} on {field}")
-                    late = 0.2 if "experiment=late_camera" in words else 0.0
-                    row = told_of_reaching(called, field, results, late, cfg["resamples"])
-                    found["reaching"].append(row)
-                    write(cfg, found)
+    each = partial(on_every_seed, workers=cfg["workers"], counted="maps")
+    for name, words in cfg["learning"].items():
+        runs = each(f"learn: {name}", learn_one, [(seed, words) for seed in seeds])
+        maps.setdefault(runs[0].stored.map.field.name, runs)
+        found["learning"].append(told_of_learning(name, runs))
+        write(cfg, found)
+    for field in cfg["fields"]:
+        for name, words in cfg["reaching"].items():
+            for places in (False, True) if name in cfg["learned_places"] else (False,):
+                tasks = [
+                    (seed, run.stored, words, cfg["targets"], places)
+                    for seed, run in zip(seeds, maps[field], strict=True)
+                ]
+                called = f"{name}, learned places" if places else name
+                results = each(f"reach: {called} on {field}", reach_one, tasks)
+                late = 0.2 if "experiment=late_camera" in words else 0.0
+                row = told_of_reaching(called, field, results, late, cfg["resamples"])
+                found["reaching"].append(row)
+                write(cfg, found)
     return found
 
 
@@ -216,8 +211,6 @@ def main(words: Sequence[str]) -> None:
     for title, rows in found.items():
         show(rows, title)
 
-
-STDERR = Console(stderr=True)
 
 if __name__ == "__main__":
     main(sys.argv[1:])
