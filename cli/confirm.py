@@ -8,6 +8,7 @@ from rich.table import Table
 
 from cli.build import Bench
 from cli.errors import UserError
+from cli.printed import listing
 
 
 def confirm_motion(bench: Bench) -> None:
@@ -34,13 +35,15 @@ def _plan(bench: Bench) -> Table:
     cfg, robot = bench.cfg, bench.robot
     here, home = robot.arm.read().posture, robot.home
     driving = cfg["robot"]["arm"].get("driving", {})
-    table = Table(title=f"{robot.body.name} is about to move", title_justify="left")
-    for heading in ("joint", "is at", "goes to", "at most"):
-        table.add_column(heading)
-    fastest = robot.body.speed
-    for number, name in enumerate(robot.body.joint_names):
-        at, to, speed = (f"{np.degrees(one[number]):.0f}°" for one in (here, home, fastest))
-        table.add_row(name, at, to, f"{speed}/s")
+    degrees = np.degrees((here, home, robot.body.speed)).T
+    table = listing(
+        f"{robot.body.name} is about to move",
+        ("joint", "is at", "goes to", "at most"),
+        [
+            (name, f"{at:.0f}°", f"{to:.0f}°", f"{speed:.0f}°/s")
+            for name, (at, to, speed) in zip(robot.body.joint_names, degrees, strict=True)
+        ],
+    )
     notes = [f"period {robot.period:g} s", f"camera {cfg['camera'].get('device', 'simulated')}"]
     if driving.get("calibrate"):
         notes.append("FIRST IT SEARCHES ALL ITS STOPS (robot.arm.driving.calibrate=true)")

@@ -10,11 +10,9 @@ from datetime import datetime
 from pathlib import Path
 from typing import Any
 
-from rich.console import Console
-from rich.table import Table
-
 from cli.errors import DONE, NOT_TRUE
 from cli.figures import FIGURES
+from cli.printed import listing, on_stdout
 
 RUNS, FIGURES_FOLDER = Path("data/runs"), Path("data/figures")
 
@@ -93,13 +91,10 @@ def imitate(words: Sequence[str]) -> int:
 
 def summarise(name: str, seconds: float) -> None:
     """Print what came out."""
-    table = Table(title=f"demo, n = 3 for the figures, {seconds:.0f} s", title_justify="left")
-    for heading in ("what", "measured here", "asked, or in the paper"):
-        table.add_column(heading)
-    for row in rows(name):
-        table.add_row(*row)
-    console = Console(highlight=False, soft_wrap=True)
-    console.print(table)
+    title = f"demo, n = 3 for the figures, {seconds:.0f} s"
+    headings = ("what", "measured here", "asked, or in the paper")
+    console = on_stdout()
+    console.print(listing(title, headings, rows(name)))
     console.print(f"files  {RUNS}/*/{name}*/  {FIGURES_FOLDER}/", markup=False)
     console.print(f"next   imitate view {reached_in(name, 'yuragi')}", markup=False)
 

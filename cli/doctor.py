@@ -11,7 +11,6 @@ from pathlib import Path
 
 import numpy as np
 from rich.console import Console
-from rich.table import Table
 
 import imitation
 from cli import trouble
@@ -19,6 +18,7 @@ from cli.device_check import device_findings
 from cli.errors import DEVICE, DONE, NOT_TRUE
 from cli.experiments import composed
 from cli.findings import FAIL, Finding, Suspicious, look
+from cli.printed import listing
 from cli.words import understand
 from imitation.gaze import VisualSpace
 
@@ -115,10 +115,8 @@ def _disk() -> str:
 
 
 def _show(findings: Sequence[Finding]) -> None:
-    table = Table(title="imitate doctor", title_justify="left")
-    for heading in ("", "looked at", "found"):
-        table.add_column(heading)
-    for one in findings:
-        colour = COLOURS[one.verdict]
-        table.add_row(f"[{colour}]{one.verdict}[/]", one.subject, one.told)
+    rows = [
+        (f"[{COLOURS[one.verdict]}]{one.verdict}[/]", one.subject, one.told) for one in findings
+    ]
+    table = listing("imitate doctor", ("", "looked at", "found"), rows)
     Console(highlight=False).print(table)

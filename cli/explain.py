@@ -5,10 +5,10 @@ from pathlib import Path
 
 import numpy as np
 from rich.box import SIMPLE_HEAD
-from rich.console import Console
 from rich.table import Table
 
 from cli.errors import DONE, UserError
+from cli.printed import on_stdout
 from cli.recompute import anew
 from imitation.analysis.explanation import (
     NOTICED,
@@ -36,7 +36,7 @@ def explain(run: Path, at: float) -> int:
         dynamics = decided.bench.dynamics
     when = moment(steps_told(recording), round(at * SECOND))
     why = reason(when.told, recording.topics)
-    console = Console(highlight=False, soft_wrap=True)
+    console = on_stdout()
     for sentence in sentences(when, why, dynamics):
         console.print(sentence, markup=False)
     if len(why.index):

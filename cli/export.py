@@ -5,10 +5,9 @@ import shutil
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from rich.console import Console
-
 from cli.errors import DONE, UserError, no_such
 from cli.inspect import size
+from cli.printed import on_stdout
 from cli.recompute import configuration
 from imitation.analysis.lerobot import Dataset
 from imitation.analysis.seal import cited
@@ -38,7 +37,7 @@ def export(paths: Sequence[Path], kind: str) -> int:
         raise UserError(f"{empty[0]} holds no step: there is nothing to export")
     write_whole(out, lambda unfinished: KINDS[kind](unfinished, recordings))
     total = sum(path.stat().st_size for path in (out, *out.rglob("*")) if path.is_file())
-    Console(highlight=False, soft_wrap=True).print(f"files  {out}  {size(total)}", markup=False)
+    on_stdout().print(f"files  {out}  {size(total)}", markup=False)
     return DONE
 
 

@@ -8,11 +8,11 @@ from pathlib import Path
 from typing import Any
 
 from rich.box import SIMPLE_HEAD
-from rich.console import Console
 from rich.table import Table
 
 from cli.errors import DONE
 from cli.following import reach_with, replay_of
+from cli.printed import facts, on_stdout
 from cli.settings import settings
 from imitation.analysis.seal import broken, cited
 from imitation.recording.mcap_recording import Recording
@@ -96,11 +96,8 @@ def following(recording: Recording, metrics: Mapping[str, Any]) -> Iterator[str]
 
 def show(told: Mapping[str, Any], found: Survey) -> None:
     """Print it."""
-    console = Console(highlight=False, soft_wrap=True)
-    about = Table(title=f"imitate inspect {told['path']}", title_justify="left", show_header=False)
-    for name, value in rows(told):
-        about.add_row(name, value)
-    console.print(about)
+    console = on_stdout()
+    console.print(facts(f"imitate inspect {told['path']}", rows(told)))
     table = Table(box=SIMPLE_HEAD, padding=(0, 1, 0, 0))
     table.add_column("topic", no_wrap=True)
     table.add_column("type", no_wrap=True)

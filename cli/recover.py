@@ -6,11 +6,11 @@ import shlex
 from pathlib import Path
 
 from rich.console import Console
-from rich.table import Table
 
 from cli.errors import DONE, UserError
 from cli.inspect import results, size
 from cli.metrics_file import write_metrics
+from cli.printed import facts, on_stdout
 from cli.recompute import configuration
 from imitation.recording.mcap_reading import is_whole
 from imitation.recording.mcap_recording import Recording, recording_in
@@ -21,7 +21,7 @@ from imitation.robot import SECOND
 def recover_run(run: Path) -> int:
     """Recover a run's recording, write its metrics.json; the exit code."""
     path = recording_in(run)
-    console = Console(highlight=False, soft_wrap=True)
+    console = on_stdout()
     if is_good(path):
         console.print(f"{path} is whole: there is nothing to recover", markup=False)
         return DONE
@@ -72,11 +72,9 @@ def tell(recording: Recording, recovery: Recovery) -> None:
 
 def show(console: Console, run: Path, recovery: Recovery, kept: Path) -> None:
     """Print what was kept."""
-    table = Table(title="imitate recover", title_justify="left", show_header=False)
     until = f"until {recovery.last_ns / SECOND:.2f} s" if recovery.steps else "none"
-    table.add_row("steps", f"{recovery.steps}, {until}")
-    if recovery.damage:
-        table.add_row("damage", recovery.damage)
-    table.add_row("the cut one", f"{os.path.relpath(kept)}, {size(kept.stat().st_size)}")
-    console.print(table)
+    told = [("steps", f"{recovery.steps}, {until}")]
+    told += [("damage", recovery.damage)] if recovery.damage else []
+    told += [("the cut one", f"{os.path.relpath(kept)}, {size(kept.stat().st_size)}")]
+    console.print(facts("imitate recover", told))
     console.print(f"next   imitate verify {shlex.quote(str(run))}", markup=False)

@@ -4,19 +4,14 @@ import os
 import shlex
 from pathlib import Path
 
-from rich.console import Console
-from rich.table import Table
-
+from cli.printed import facts, on_stdout
 from cli.run import Outcome
 
 
 def show(command: str, folder: Path, outcome: Outcome, cadence: list[tuple[str, str]]) -> None:
     """Print the results of a run on stdout."""
-    console = Console(highlight=False, soft_wrap=True)
-    table = Table(title=f"imitate {command}", title_justify="left", show_header=False)
-    for name, value in [*outcome.rows, *cadence]:
-        table.add_row(name, value)
-    console.print(table)
+    console = on_stdout()
+    console.print(facts(f"imitate {command}", [*outcome.rows, *cadence]))
     where = os.path.relpath(folder)
     where = str(folder) if where.startswith("..") else where
     files = " ".join(sorted(path.name for path in folder.iterdir()))

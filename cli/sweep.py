@@ -6,10 +6,9 @@ from pathlib import Path
 from typing import Any
 
 from hydra.core.override_parser.overrides_parser import OverridesParser
-from rich.console import Console
-from rich.table import Table
 
 from cli.errors import BAD_INPUT, UserError
+from cli.printed import listing, on_stdout
 from imitation.recording.json_file import write_json
 
 TOLD = ".job-*.json"  # what each job leaves behind
@@ -33,13 +32,9 @@ def summary(folder: Path) -> int:
     write_json(folder / "sweep.json", {"jobs": jobs})
     for path in folder.glob(TOLD):
         path.unlink()
-    table = Table(title="sweep", title_justify="left")
-    for heading in ("job", "exit code", "overrides"):
-        table.add_column(heading)
-    for one in jobs:
-        table.add_row(str(one["job"]), str(one["exit_code"]), " ".join(one["overrides"]))
-    console = Console(highlight=False, soft_wrap=True)
-    console.print(table)
+    rows = [(str(one["job"]), str(one["exit_code"]), " ".join(one["overrides"])) for one in jobs]
+    console = on_stdout()
+    console.print(listing("sweep", ("job", "exit code", "overrides"), rows))
     console.print(f"files  {os.path.relpath(folder)}/", markup=False)
     return max((int(one["exit_code"]) for one in jobs), default=BAD_INPUT)
 

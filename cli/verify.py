@@ -5,10 +5,10 @@ from pathlib import Path
 
 import numpy as np
 from omegaconf import OmegaConf
-from rich.console import Console
 from rich.table import Table
 
 from cli.errors import DONE, NOT_TRUE, UserError, say
+from cli.printed import facts, on_stdout
 from cli.provenance import run_record
 from cli.recompute import Anew, anew, configuration
 from cli.what_if import replaced
@@ -70,7 +70,7 @@ def what_if(run: Path, words: Sequence[str]) -> int:
     told += [("decisions", _differing(found) if found.differing else "the same, bit for bit")]
     show(f"what if: {' '.join(words)}", told, found)
     path = second.path
-    Console(highlight=False, soft_wrap=True).print(f"files  {path}", markup=False)
+    on_stdout().print(f"files  {path}", markup=False)
     return NOT_TRUE if found.differing else DONE
 
 
@@ -117,11 +117,8 @@ def _second(recording: Recording, decided: Anew, words: Sequence[str]) -> Record
 
 def show(title: str, told: Sequence[tuple[str, str]], found: Comparison) -> None:
     """Print what came out, and what differs on each topic."""
-    console = Console(highlight=False, soft_wrap=True)
-    table = Table(title=title, title_justify="left", show_header=False)
-    for row in told:
-        table.add_row(*row)
-    console.print(table)
+    console = on_stdout()
+    console.print(facts(title, told))
     if not found.differing:
         return
     table = Table(title="what differs", title_justify="left")

@@ -9,7 +9,6 @@ from typing import Any
 import hydra
 from omegaconf import DictConfig
 from rich.console import Console
-from rich.table import Table
 
 from cli.build import Config, made
 from cli.check import checked
@@ -17,6 +16,7 @@ from cli.errors import DONE, NOT_TRUE, say
 from cli.figures import FIGURES
 from cli.folder import writable
 from cli.job import attempt
+from cli.printed import listing
 from imitation.analysis.claims import Claim, write_claims
 from imitation.analysis.figure_style import mark_demo, save
 
@@ -50,18 +50,18 @@ def draw(cfg: Config) -> int:
 
 def show(title: str, claims: Sequence[Claim], files: Sequence[Path]) -> None:
     """Print the claims and where the figure is."""
-    table = Table(title=title, title_justify="left")
-    for heading in ("claim", "asked", "measured", "95 % interval", ""):
-        table.add_column(heading)
-    for claim in claims:
-        told = claim.comparison == "reported"
-        table.add_row(
-            claim.sentence,
-            "" if told else f"{claim.comparison} {claim.asked:g} {claim.unit}",
-            f"{claim.measured:.4g}{f' {claim.unit}' if told else ''}",
-            f"{claim.low:.4g} .. {claim.high:.4g}",
-            "told" if told else "true" if claim.passed else "not true",
-        )
+    rows = [_row(claim) for claim in claims]
     console = Console(highlight=False)
-    console.print(table)
+    console.print(listing(title, ("claim", "asked", "measured", "95 % interval", ""), rows))
     console.print("files  " + " ".join(os.path.relpath(path) for path in files), soft_wrap=True)
+
+
+def _row(claim: Claim) -> tuple[str, ...]:
+    told = claim.comparison == "reported"
+    return (
+        claim.sentence,
+        "" if told else f"{claim.comparison} {claim.asked:g} {claim.unit}",
+        f"{claim.measured:.4g}{f' {claim.unit}' if told else ''}",
+        f"{claim.low:.4g} .. {claim.high:.4g}",
+        "told" if told else "true" if claim.passed else "not true",
+    )
