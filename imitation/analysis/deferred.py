@@ -7,58 +7,17 @@ from typing import Any
 import numpy as np
 
 from imitation.analysis.place_prediction import place_shown_at
-from imitation.analysis.visits import Visit
+from imitation.analysis.visits import Order, in_order, visits_of
 from imitation.arrays import Array
 from imitation.robot import Observation, Truth
 from imitation.sample import Sample
 from imitation.visual_field import Area, VisualField
 from imitation.visuo_motor_map import VisuoMotorMap
 
-PASSING = 0.3  # another learned state may be crossed for this long on the way [s]
 PLACED = 0.04  # an object is where the demonstrator put it when it stands this near [m]
 CARRIED_FOR = 1.0  # a thing that moves with the hand this long is grasped [s]
 CARRIED_FAR = 0.02  # it must have moved this far in that time [m]
 SLIPPED = 0.015  # and by no more than this otherwise than the hand [m]
-
-
-@dataclass(frozen=True)
-class Order:
-    """How a path went through the areas of an action."""
-
-    entries: tuple[float, ...]  # when the states in order were entered [s]
-    correct: bool  # all of them, and no other in between for long
-
-
-def visits_of(
-    times: Sequence[float], hands: Sequence[Array], areas: Iterable[Area], field_: VisualField
-) -> list[Visit]:
-    """Stays of a hand (n, 2) [px], seen at `times` [s], in any of `areas`."""
-    of_interest, found = set(areas), list[Visit]()
-    before: Area | None = None
-    for time, hand in zip(times, hands, strict=True):
-        area = field_.area_of(hand) if np.isfinite(hand).all() else None
-        if area in of_interest and area is not None:
-            begin = found[-1].begin if area == before else time
-            if area == before:
-                found.pop()
-            found.append(Visit(area, begin, time))
-        before = area
-    return found
-
-
-def in_order(visits: Sequence[Visit], expected: Sequence[Area]) -> Order:
-    """Whether `visits` go through `expected` in order, no other state between for long."""
-    entries: list[float] = []
-    correct = True
-    for visit in visits:
-        reached = len(entries)
-        if reached < len(expected) and visit.area == expected[reached]:
-            entries.append(visit.begin)
-        elif reached and visit.area == expected[reached - 1]:
-            continue
-        elif visit.end - visit.begin > PASSING:
-            correct = False
-    return Order(tuple(entries), correct and len(entries) == len(expected))
 
 
 def carried(times: Sequence[float], touching: Sequence[bool], hands: Array, things: Array) -> bool:

@@ -1,11 +1,13 @@
-"""Visits to areas, and which are followed, made by hand."""
+"""Visits to areas: which are followed and in which order, made by hand."""
 
 import pytest
 
-from imitation.analysis.visits import Visit, followed_visits, visits
+from imitation.analysis.visits import Visit, followed_visits, in_order, visits, visits_of
+from imitation.visual_field import VisualField
 
 PERIOD = 0.04  # [s]
-A, B = (0, 1), (0, 2)
+FIELD = VisualField("right_4x4", (160, 120), 4, 4, 40.0)
+A, B, C = (1, 1), (1, 3), (3, 3)
 
 
 def test_visits_are_stays_in_one_area_after_the_other():
@@ -36,3 +38,45 @@ def test_each_own_visit_is_used_once_and_in_order():
     own = [Visit(A, 0.5, 1.2), Visit(B, 1.5, 2.2), Visit(A, 2.5, 3)]
     assert followed_visits(shown, own, 0.5) == shown
     assert followed_visits(shown[:2], own[1::-1], 0.5) == [shown[0]]
+
+
+def stays(*areas_and_seconds) -> list[Visit]:
+    """Visits one after the other, a second apart."""
+    found, time = [], 0.0
+    for area, seconds in areas_and_seconds:
+        found.append(Visit(area, time, time + seconds))
+        time += seconds + 1.0
+    return found
+
+
+def test_a_path_through_all_states_in_order_is_correct():
+    order = in_order(stays((A, 1.0), (B, 1.0), (C, 1.0)), [A, B, C])
+    assert order.correct
+    assert order.entries == (0.0, 2.0, 4.0)
+
+
+def test_states_in_another_order_are_not_correct():
+    assert not in_order(stays((B, 1.0), (A, 1.0), (C, 1.0)), [A, B, C]).correct
+
+
+def test_a_state_that_is_missing_is_not_correct():
+    order = in_order(stays((A, 1.0), (B, 1.0)), [A, B, C])
+    assert not order.correct
+    assert len(order.entries) == 2
+
+
+@pytest.mark.parametrize(("seconds", "correct"), [(0.2, True), (0.4, False)])
+def test_another_state_may_be_crossed_only_shortly(seconds, correct):
+    assert in_order(stays((A, 1.0), (C, seconds), (B, 1.0), (C, 1.0)), [A, B, C]).correct is correct
+
+
+def test_an_area_left_and_entered_again_is_one_entry():
+    order = in_order(stays((A, 1.0), (A, 1.0), (B, 1.0)), [A, B])
+    assert order.correct
+    assert order.entries == (0.0, 4.0)
+
+
+def test_visits_are_the_stays_in_areas_of_the_action_alone():
+    centres = [FIELD.centres[area] for area in (A, A, (2, 2), B, B, B)]
+    found = visits_of([0.0, 0.1, 0.2, 0.3, 0.4, 0.5], centres, [A, B], FIELD)
+    assert found == [Visit(A, 0.0, 0.1), Visit(B, 0.3, 0.5)]
