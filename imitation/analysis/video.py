@@ -9,7 +9,7 @@ import numpy as np
 from imitation.arrays import Array, Image
 from imitation.recording import messages
 from imitation.recording.mcap_recording import Recording
-from imitation.recording.picture_columns import Grid
+from imitation.recording.overview import Grid
 from imitation.recording.recorded_steps import StepTold, steps_told
 from imitation.robot import SECOND
 

@@ -6,7 +6,8 @@ from pathlib import Path
 import rerun as rr
 
 from imitation.recording.mcap_recording import Recording
-from imitation.recording.picture_columns import Batch, Overview
+from imitation.recording.overview import Overview
+from imitation.recording.picture_columns import Batch
 from imitation.recording.rerun_view.demonstration import Demonstration
 from imitation.recording.rerun_view.drawing import Drawing
 from imitation.recording.rerun_view.live import LiveView

@@ -11,7 +11,8 @@ import yaml
 from rerun.urdf import UrdfJoint, UrdfTree
 
 from imitation.arrays import Array
-from imitation.recording.picture_columns import Batch, Overview
+from imitation.recording.overview import Overview
+from imitation.recording.picture_columns import Batch
 from imitation.recording.rerun_view.columns import send
 
 OBJECT = "arm/object"

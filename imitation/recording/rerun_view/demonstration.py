@@ -10,7 +10,8 @@ import rerun as rr
 
 from imitation.recording import messages
 from imitation.recording.mcap_recording import Recording
-from imitation.recording.picture_columns import Batch, Overview
+from imitation.recording.overview import Overview
+from imitation.recording.picture_columns import Batch
 from imitation.recording.rerun_view.columns import send
 from imitation.recording.rerun_view.look import CYAN, FAINT, image_format, pictures
 

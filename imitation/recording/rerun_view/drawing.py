@@ -8,7 +8,8 @@ import numpy as np
 import rerun as rr
 
 from imitation.recording import messages
-from imitation.recording.picture_columns import Batch, Overview, learned_places
+from imitation.recording.overview import Overview
+from imitation.recording.picture_columns import Batch, learned_places
 from imitation.recording.rerun_view.body_drawing import BodyDrawing
 from imitation.recording.rerun_view.columns import send
 from imitation.recording.rerun_view.look import (

@@ -7,7 +7,8 @@ from dataclasses import replace
 
 import rerun as rr
 
-from imitation.recording.picture_columns import Batch, Overview
+from imitation.recording.overview import Overview
+from imitation.recording.picture_columns import Batch
 from imitation.recording.rerun_view.drawing import Drawing
 from imitation.recording.rerun_view.panels import blueprint
 from imitation.recording.rerun_view.screenshot import listening

@@ -5,7 +5,7 @@ from typing import Any
 
 import rerun.blueprint as rrb
 
-from imitation.recording.picture_columns import Overview
+from imitation.recording.overview import Overview
 
 TIMELINE = "run_time"
 CURVES = {
