@@ -1,15 +1,14 @@
 """Makes robots, perception and maps out of a composed configuration."""
 
 import zlib
-from collections.abc import Callable, Collection, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
-from inspect import signature
-from typing import Any, TypeVar
+from typing import Any
 
 import numpy as np
-from hydra.utils import get_method
 
+from cli.make import asked_by, made_of, make, make_offered, without
 from imitation.approach import Approach
 from imitation.arrays import Array
 from imitation.controllers.controller import Controller
@@ -31,52 +30,12 @@ from imitation.visual_field import VisualField
 from imitation.visuo_motor_map import Learning, VisuoMotorMap
 
 Config = Mapping[str, Any]
-Made = TypeVar("Made")
 DEMONSTRATOR = ("name", "hand", "hands", "height", "raise")  # what no gesture asks for
 
 
 def generator(seed: int, purpose: str) -> np.random.Generator:
     """Randomness for one purpose: another purpose does not shift it."""
     return np.random.default_rng([seed, zlib.crc32(purpose.encode())])
-
-
-def _plain(node: Config, *without: str) -> dict[str, Any]:
-    return {key: value for key, value in node.items() if key not in without}
-
-
-def make(node: Config, **more: Any) -> Any:
-    """What a node's `_target_` builds from the node's other values and `more`.
-
-    Hydra's own `instantiate` would turn dataclasses among the arguments into configurations.
-    """
-    return get_method(node["_target_"])(**_plain(node, "_target_"), **more)
-
-
-def make_offered(node: Config, offered: Config) -> Any:
-    """What `make` builds, given those of the `offered` values that it asks for."""
-    asked = asked_by(node)
-    return make(node, **{name: value for name, value in offered.items() if name in asked})
-
-
-def made_of(kind: Callable[..., Made], offered: Config) -> Made:
-    """What `kind` makes of those of the `offered` values that it asks for."""
-    asked = signature(kind).parameters
-    return kind(**{name: value for name, value in offered.items() if name in asked})
-
-
-def asked_by(node: Config) -> Collection[str]:
-    """The parameters of what a node's `_target_` names."""
-    return signature(get_method(node["_target_"])).parameters
-
-
-def made(node: Any) -> Any:
-    """`node` with everything built that a `_target_` in it names, innermost first."""
-    if isinstance(node, list):
-        return [made(one) for one in node]
-    if not isinstance(node, dict):
-        return node
-    inside = {key: made(value) for key, value in node.items()}
-    return make(inside) if "_target_" in inside else inside
 
 
 @dataclass
@@ -130,7 +89,7 @@ class Bench:
             "rng": generator(self.cfg["seed"], "camera"),
             "demonstrator": self.demonstrator,
         }
-        node = _plain(self.cfg["camera"], "size", "focal_px", "gaze")
+        node = without(self.cfg["camera"], "size", "focal_px", "gaze")
         if "arm" in asked_by(node):  # a real camera stands for itself
             offered["arm"] = self.arm
         camera: Camera = make_offered(node, offered)
@@ -164,7 +123,7 @@ class Bench:
         simulated = "demonstrator" in asked_by(camera)
         if node is None or not simulated:  # a real camera sees who is there
             return None
-        gesture = make(_plain(node, *DEMONSTRATOR))
+        gesture = make(without(node, *DEMONSTRATOR))
         if gesture is None:
             return None
         return hand_over_table(node, gesture, self.space, camera["eye"])
@@ -226,7 +185,7 @@ class Bench:
 
     def perception(self, field: VisualField) -> Perception:
         """Sees the hand in `field`."""
-        node = _plain(self.cfg["vision"])
+        node = dict(self.cfg["vision"])
         for key in ("hue", "saturation", "value"):
             if key in node:
                 node[key] = tuple(node[key])
@@ -241,19 +200,19 @@ class Bench:
             "acceleration": body.acceleration,
             "period": self.robot.period,
         }
-        controller: Controller = make_offered(_plain(node, "name"), offered)
+        controller: Controller = make_offered(without(node, "name"), offered)
         return controller
 
     @cached_property
     def selection(self) -> Selection:
         """What sets V in mimicry."""
-        selection: Selection = make(_plain(self.cfg["selection"], "name"))
+        selection: Selection = make(without(self.cfg["selection"], "name"))
         return selection
 
     def empty_map(self) -> VisuoMotorMap:
         """A map that has learned nothing yet."""
         node = self.cfg["map"]
-        learning = Learning(**_plain(node, "neurons"))
+        learning = Learning(**without(node, "neurons"))
         body = self.robot.body
         return VisuoMotorMap(self.field, body.lower, body.upper, node["neurons"], learning)
 

@@ -7,7 +7,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from cli.build import Bench, Config, generator, made_of
+from cli.build import Bench, Config, generator
+from cli.make import made_of
 from cli.stages import drawing, mimicking, mirror_of
 from imitation.analysis.mimic_metrics import Judging, MimicMetrics
 from imitation.analysis.mirror import Aside, aside

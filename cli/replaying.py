@@ -4,7 +4,8 @@ from collections.abc import Iterator, Mapping
 
 import numpy as np
 
-from cli.build import Bench, generator, made_of
+from cli.build import Bench, generator
+from cli.make import made_of
 from imitation.arrivals import Arrivals, Noticing
 from imitation.enacting import Arriving, Detours, Enactor
 from imitation.grasp import GraspReflex

@@ -4,7 +4,8 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from cli.build import Bench, generator, made_of
+from cli.build import Bench, generator
+from cli.make import made_of
 from imitation.controllers.corrected_aim import CorrectedAim
 from imitation.robots.hand_paths import Mirrored
 from imitation.sample import Sample

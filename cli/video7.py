@@ -6,9 +6,9 @@ from pathlib import Path
 import cv2
 import numpy as np
 
-from cli.build import made
 from cli.experiments import composed
 from cli.fig7_runs import Fig7, Watched, watched_runs
+from cli.make import made
 from imitation.arrays import Image
 
 FILM = Path("data/figures/video7.mp4")

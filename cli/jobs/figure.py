@@ -10,12 +10,13 @@ import hydra
 from omegaconf import DictConfig
 from rich.console import Console
 
-from cli.build import Config, made
+from cli.build import Config
 from cli.check import checked
 from cli.errors import DONE, NOT_TRUE, say
 from cli.figures import FIGURES
 from cli.folder import writable
 from cli.job import attempt
+from cli.make import made
 from cli.printed import listing
 from imitation.analysis.claims import Claim, write_claims
 from imitation.analysis.figure_style import mark_demo, save
