@@ -49,8 +49,7 @@ class ToTheSeenPlace(Aim):
     def begin(self, learned: VisuoMotorMap, target: Array) -> None:
         """A state whose place is `target` (2,) [px] is predicted."""
         super().begin(learned, target)
-        area = learned.field.area_of(target)
-        if area is None or not learned.learned[area]:
+        if learned.learned_area(target) is None:
             self.selection = np.zeros(learned.field.shape)
 
     def attractors(self, posture: Array) -> Attractors:

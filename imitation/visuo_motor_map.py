@@ -131,6 +131,20 @@ class VisuoMotorMap:
         """The neuron of a learned area's cluster whose posture is nearest to `posture` [rad]."""
         return int(np.nanargmin(self._distance(area, posture)))
 
+    def learned_area(self, place: Array) -> Area | None:
+        """The learned area that `place` (2,) [px] lies in; None: it lies in none."""
+        area = self.field.area_of(place)
+        return area if area is not None and self.learned[area] else None
+
+    def distances(self, place: Array) -> Array:
+        """Of each area's nearest learned place to `place`, (rows, columns) [px]; inf: it has none.
+
+        Args:
+            place: (2,) [px], or one for each area, (rows, columns, 2).
+        """
+        off = np.linalg.norm(self.places - place[..., None, :], axis=-1)
+        return np.asarray(np.where(np.isnan(off), np.inf, off).min(axis=-1))
+
     def memories(self) -> tuple[Array, Array]:
         """All learned postures (n, n_joints) [rad] and where each was seen (n, 2) [px]."""
         return self.postures[self.holds], self.places[self.holds]

@@ -16,7 +16,6 @@ from cli.run import Outcome, Run
 from imitation.analysis.deferred import DeferredMetrics
 from imitation.recording.action_file import Action, load_action
 from imitation.recording.run_files import file_in
-from imitation.visual_field import Area
 from imitation.visuo_motor_map import VisuoMotorMap
 
 
@@ -64,7 +63,7 @@ def the_action(run: Run) -> Action:
 
 def deferred_metrics(bench: Bench, learned: VisuoMotorMap, action: Action) -> DeferredMetrics:
     """What will measure the replay."""
-    areas = [_learned(learned, state.place) for state in action.states]
+    areas = [learned.learned_area(state.place) for state in action.states]
     if not any(areas[1:]):
         raise UserError("the map has learned nothing where the action goes; learn a fuller one")
     times = [state.time for state in action.states]
@@ -103,11 +102,6 @@ def _complaint(metrics: dict[str, Any]) -> str | None:
         done, asked = metrics["states_replayed"], metrics["states_asked"]
         return f"the hand did not go through the action's states in order ({done} of {asked} came)"
     return None
-
-
-def _learned(learned: VisuoMotorMap, place: Any) -> Area | None:
-    area = learned.field.area_of(place)
-    return area if area is not None and learned.learned[area] else None
 
 
 def _triggered(metrics: dict[str, Any], states: int) -> str:

@@ -11,7 +11,7 @@ from imitation.analysis.visits import Order, in_order, visits_of
 from imitation.arrays import Array
 from imitation.robot import Observation, Truth
 from imitation.sample import Sample
-from imitation.visual_field import Area, VisualField
+from imitation.visual_field import Area
 from imitation.visuo_motor_map import VisuoMotorMap
 
 PLACED = 0.04  # an object is where the demonstrator put it when it stands this near [m]

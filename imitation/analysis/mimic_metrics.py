@@ -150,13 +150,11 @@ class MimicMetrics:
         return wanted, followed_visits(wanted, by_robot, self.judging.grace)
 
     def _learned_area(self, place: Array) -> Area | None:
-        area = None if np.isnan(place[0]) else self.learned.field.area_of(place)
-        return area if area is not None and self.learned.learned[area] else None
+        return None if np.isnan(place[0]) else self.learned.learned_area(place)
 
     def _near(self, place: Array) -> Area | None:
         """The area whose learned place is near enough."""
-        off = np.linalg.norm(self.learned.places - place, axis=-1)
-        off = np.where(np.isnan(off), np.inf, off).min(axis=-1)
+        off = self.learned.distances(place)
         row, column = np.unravel_index(off.argmin(), off.shape)
         return (int(row), int(column)) if off[row, column] <= self.judging.near else None
 

@@ -31,10 +31,8 @@ class Nearest:
     def begin(self, learned: VisuoMotorMap, target: Array) -> None:
         """A new trial towards `target` (2,) [px]."""
         self._learned = learned
-        off = np.linalg.norm(learned.places - target, axis=-1)
-        nearest = np.where(np.isnan(off), np.inf, off).min(axis=-1)
         self._selection = np.zeros(learned.field.shape)
-        self._selection.flat[nearest.argmin()] = 1.0
+        self._selection.flat[learned.distances(target).argmin()] = 1.0
 
     def decide(
         self, seen: Observation, percept: Percept, target: Array, dynamics: Dynamics

@@ -93,9 +93,8 @@ class Babbling:
 
     def _wanting(self, learned: VisuoMotorMap) -> list[Area]:
         field = learned.field
-        off = np.linalg.norm(learned.places - field.centres[:, :, None], axis=-1)
-        nearest = np.where(np.isnan(off), np.inf, off).min(axis=-1)
-        open_areas = field.reachable & (nearest > self.curiosity.central * field.side)
+        off = learned.distances(field.centres)
+        open_areas = field.reachable & (off > self.curiosity.central * field.side)
         return [(int(row), int(column)) for row, column in np.argwhere(open_areas)]
 
     def _guess(self, learned: VisuoMotorMap, area: Area) -> Array:
