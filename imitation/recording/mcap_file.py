@@ -60,8 +60,7 @@ class McapFile:
         for topic in dict.fromkeys(message.topic for message in messages):
             if topic not in self._writer.channels:
                 self._open_channel(topic)
-        self._writer.add_messages(messages)
-        self._writer.flush()
+        self._writer.add_chunk(messages)
         self._digest.add(messages)
         self._write_digest()
 

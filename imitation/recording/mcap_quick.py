@@ -12,11 +12,12 @@ from mcap.writer import Writer
 from imitation.recording.step_messages import Message
 
 NO_LIMIT = 1 << 62  # chunks are closed at the end of a step, never by their size
+MESSAGE = int(Opcode.MESSAGE)
 PACK = struct.Struct("<BQHIQQ").pack  # opcode, length, channel, sequence, two times
 
 
 class QuickWriter(Writer):
-    """The writer; messages go into the open chunk.
+    """The writer, of whole chunks.
 
     Attributes:
         channels: The channel of each topic.
@@ -33,8 +34,8 @@ class QuickWriter(Writer):
         self.channels[topic] = super().register_channel(topic, *given)
         return self.channels[topic]
 
-    def add_messages(self, messages: Sequence[Message]) -> None:
-        """Add messages to the open chunk; the channels of their topics are registered."""
+    def add_chunk(self, messages: Sequence[Message]) -> None:
+        """Write messages as one chunk; the channels of their topics are registered."""
         chunk, told = self._Writer__chunk_builder, self._Writer__statistics  # type: ignore[attr-defined]
         parts, at = list[bytes](), chunk.count
         for topic, time_ns, data in messages:
@@ -43,21 +44,19 @@ class QuickWriter(Writer):
             if index is None:
                 index = chunk.message_indices[channel] = _QuickIndex(channel, [])
             index.records.append((time_ns, at))
-            parts += (PACK(Opcode.MESSAGE, length, channel, 0, time_ns, time_ns), data)
-            told.channel_message_counts[channel] += 1
+            parts += (PACK(MESSAGE, length, channel, 0, time_ns, time_ns), data)
             at += 9 + length
         chunk.record_writer._buffer.writelines(parts)
         times = [message.time_ns for message in messages]
-        _extend(chunk, min(times), max(times), chunk.num_messages == 0)
-        _extend(told, min(times), max(times), told.message_count == 0)
-        chunk.num_messages += len(messages)
+        chunk.message_start_time, chunk.message_end_time = min(times), max(times)
+        chunk.num_messages = len(messages)
+        for channel, index in chunk.message_indices.items():
+            told.channel_message_counts[channel] += len(index.records)
+        started = min(told.message_start_time, min(times)) if told.message_count else min(times)
+        told.message_start_time = started
+        told.message_end_time = max(told.message_end_time, max(times))
         told.message_count += len(messages)
-
-
-def _extend(what: Any, start_ns: int, end_ns: int, empty: bool) -> None:
-    """Let the times of a chunk, or of the statistics, reach from `start_ns` to `end_ns`."""
-    what.message_start_time = start_ns if empty else min(what.message_start_time, start_ns)
-    what.message_end_time = max(what.message_end_time, end_ns)
+        self.flush()  # type: ignore[no-untyped-call]
 
 
 class _PackedIndex:

@@ -94,8 +94,7 @@ class Recovery:
                 channel, _, time_ns, _ = MESSAGE_FIELDS.unpack_from(content)
                 data = content[MESSAGE_FIELDS.size :]
                 messages.append(Message(self._topics[channel], time_ns, data))
-        writer.add_messages(messages)
-        writer.flush()
+        writer.add_chunk(messages)
         self._digest.add(messages)
         for message in messages:
             if message.topic == "/joint_command/sent":

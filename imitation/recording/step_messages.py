@@ -110,7 +110,7 @@ class StepMessages:
         yield Message("/gaze", now, _floats(seen.gaze, ("pan, tilt",)))
         gripper = np.array((seen.opening, seen.proximity, seen.touching))
         yield Message("/gripper", now, _floats(gripper, ("opening, proximity, touching",)))
-        if seen.place_noise.any():
+        if np.count_nonzero(seen.place_noise):
             yield Message("/hand/noise", now, _place(captured, seen.place_noise))
         if percept.hand is not None:
             yield Message("/hand", now, _place(stamp(percept.time_ns), percept.hand))
@@ -125,7 +125,7 @@ class StepMessages:
         yield Message("/attractors/index", now, form.fill(index))
         activation = _floats(decision.activation, ("attractors",))
         yield Message("/attractors/activation", now, activation)
-        if (index < 0).any():
+        if np.count_nonzero(index < 0):
             yield Message("/attractors/posture", now, _floats(decision.postures, OF_ATTRACTORS))
         yield Message("/attractors/pull", now, _floats(decision.shares, OF_ATTRACTORS))
         dynamics = np.array((decision.gain, decision.noise_level, decision.distance))

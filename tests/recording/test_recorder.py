@@ -76,9 +76,10 @@ class PlainWriter(Writer):
     def register_channel(self, topic, *given):
         self.channels[topic] = super().register_channel(topic, *given)
 
-    def add_messages(self, messages):
+    def add_chunk(self, messages):
         for topic, time_ns, data in messages:
             self.add_message(self.channels[topic], time_ns, data, time_ns)
+        self.flush()
 
 
 def test_quick_packing_gives_the_bytes_of_the_library(record, monkeypatch):
