@@ -10,8 +10,9 @@ from omegaconf.errors import MissingMandatoryValue, OmegaConfBaseException
 from pydantic import BaseModel, ConfigDict, ValidationError, create_model
 
 from cli.build import Config
+from cli.config_dir import not_known
 from cli.errors import UserError, nearest
-from cli.keys import comments
+from cli.keys import comments, known_targets
 from cli.kinds import Target
 from cli.ranges import RANGES
 from cli.schema import COMMANDS
@@ -29,6 +30,9 @@ SUPPLIED = {
     "acceleration",
     "period",
 }
+
+LARGEST = 1e9  # number that anything is measured in, whatever its unit
+UNLIMITED = ("seed", "first_seed", "distance_cap")
 
 PYDANTIC = {
     "Input should be ": "",
@@ -60,6 +64,7 @@ def checked(command: str, composed: DictConfig) -> Config:
         check_shown(cfg)
     except ValidationError as error:
         raise UserError(in_words(command, error, cfg, ())) from None
+    check_numbers(cfg, ())
     plain: Config = cfg
     return plain
 
@@ -98,6 +103,8 @@ def check_target(node: Target, path: tuple[str, ...], cfg: Config) -> None:
     dotted = ".".join(path)
     given = dict(node.model_extra or {})
     name = given.pop("_target_", None)
+    if name not in known_targets():  # nothing that a file names is called unless we know it
+        raise UserError(f"{dotted}.{not_known(str(name))}")
     target: Any = locate(str(name))
     if not callable(target):
         raise UserError(f"{dotted}._target_={name}: nothing of that name can be called")
@@ -112,6 +119,16 @@ def check_target(node: Target, path: tuple[str, ...], cfg: Config) -> None:
         model.model_validate(given)
     except ValidationError as error:
         raise UserError(in_words("", error, cfg, path, list(parameters))) from None
+
+
+def check_numbers(node: Any, path: tuple[str, ...]) -> None:
+    """Check that no number is one that nothing here is measured in."""
+    for name, value in node.items() if isinstance(node, dict) else enumerate(node):
+        here = (*path, str(name))
+        if isinstance(value, dict | list):
+            check_numbers(value, here)
+        elif isinstance(value, int | float) and name not in UNLIMITED and not abs(value) <= LARGEST:
+            raise UserError(f"{'.'.join(here)}={_short(value)}: wanted {LARGEST:g} at most")
 
 
 def check_joints(robot: Config | None) -> None:

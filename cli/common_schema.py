@@ -6,7 +6,6 @@ from pydantic import Field as Within
 
 from cli.kinds import (
     Colour,
-    Count,
     NotNegative,
     Pair,
     Place,
@@ -79,8 +78,8 @@ class Field(Section):
     """`field`."""
 
     name: str
-    rows: Count
-    columns: Count
+    rows: Annotated[int, Within(ge=1, le=100)]
+    columns: Annotated[int, Within(ge=1, le=100)]
     left: NotNegative
 
 
@@ -168,7 +167,7 @@ class Common(Section):
 
     seed: Whole
     out: Place | None
-    period: Positive
+    period: Annotated[float, Within(ge=0.001, le=10)]
     dry_run: bool
     confirmed: bool
     recording: Recording

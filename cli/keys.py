@@ -4,6 +4,8 @@ import re
 from functools import cache
 from pathlib import Path
 
+from cli.installed_bodies import folders as installed
+
 CONF = Path(__file__).parents[1] / "conf"
 LINE = re.compile(r"^(?P<indent> *)(?P<key>\w+):(?P<value>[^#]*)(?:# (?P<comment>.*))?$")
 INCLUDED = re.compile(r"^  - (?!_self_)(\w+)$", re.MULTILINE)
@@ -25,6 +27,13 @@ def groups_of(command: str) -> dict[str, list[str]]:
     text = (CONF / f"{command.replace('-', '_')}.yaml").read_text()
     named = re.findall(r"^  - (?:optional )?(\w+): ", text, re.MULTILINE)
     return {name: groups()[name] for name in named if name in groups()}
+
+
+@cache
+def known_targets() -> frozenset[str]:
+    """Everything that our configuration, and that of installed bodies, makes parts of."""
+    texts = [path.read_text() for folder in (CONF, *installed()) for path in folder.rglob("*.yaml")]
+    return frozenset(re.findall(r"^\s*_target_: *(\S+)", "\n".join(texts), re.MULTILINE))
 
 
 @cache

@@ -24,6 +24,11 @@ def launch(command: str, typed: list[str]) -> int:
     """Run a command, once or as a sweep, and return the exit code."""
     try:
         words = understand(typed)
+        if words.config_dirs:
+            from cli.config_dir import check_config_dir
+
+            for folder in words.config_dirs:
+                check_config_dir(folder)
         with sigterm_like_ctrl_c():
             return _run(command, words)
     except UserError as error:

@@ -4,6 +4,7 @@ import hashlib
 import json
 import platform
 import subprocess
+from collections.abc import Mapping
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
@@ -33,6 +34,32 @@ def run_record(command: str, seed: int, robot: str) -> dict[str, str]:
         "robot": robot,
         "packages": json.dumps(packages, sort_keys=True),
     }
+
+
+def another_program(wrote: Mapping[str, str]) -> str:
+    """Which program wrote a recording, and which this is; empty when they are the same.
+
+    Args:
+        wrote: The recording's record `run`.
+    """
+    here = run_record(wrote.get("command", ""), 0, "")
+    keys = ("version", "git_revision", "git_dirty")
+    if all(wrote.get(key, "") == here[key] for key in keys):
+        return ""
+    return f"it was recorded by {_program(wrote)}, this is {_program(here)}"
+
+
+def its_program(wrote: Mapping[str, str]) -> str:
+    """How to get the program that wrote a recording."""
+    if revision := wrote.get("git_revision"):
+        return f"git checkout {revision[:12]}"
+    return f"pip install {PACKAGE}=={wrote.get('version', '?')}"
+
+
+def _program(record: Mapping[str, str]) -> str:
+    changed = " with changes" if record.get("git_dirty") == "true" else ""
+    revision = record.get("git_revision", "")[:12]
+    return f"version {record.get('version', '?')}{f' at {revision}' * bool(revision)}{changed}"
 
 
 def sha256(path: Path) -> str:

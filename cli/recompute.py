@@ -1,25 +1,24 @@
 """A recorded run decided on anew: the same stage, on a robot that senses what was recorded."""
 
 import hashlib
-import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
-from functools import cache
 from itertools import tee
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
-import yaml
 from omegaconf import OmegaConf
 
 from cli import stages
 from cli.build import Bench, Config
 from cli.check import checked
-from cli.errors import UserError, no_such
+from cli.config_dir import not_known, values
+from cli.errors import UserError, is_refusal, no_such
 from cli.jobs.reach import trials_of
-from cli.keys import CONF
+from cli.keys import known_targets
+from cli.provenance import another_program, its_program
 from cli.replaying import replaying
 from cli.run import ATTACHED
 from cli.usual import filled
@@ -28,6 +27,7 @@ from imitation.recording.action_file import load_action
 from imitation.recording.map_file import LearnedMap, load_map
 from imitation.recording.mcap_recording import Recording
 from imitation.recording.recorded_steps import StepTold, steps_told
+from imitation.recording.yaml_reading import read_yaml
 from imitation.robots.recorded import Unrecorded
 from imitation.sample import Sample
 from imitation.visual_field import VisualField
@@ -82,9 +82,8 @@ def anew(recording: Recording, words: Sequence[str] = ()) -> Iterator[Anew]:
     if command not in STAGES:
         raise UserError(f"{recording.path}: {no_such('stage', command, sorted(STAGES))}")
     with TemporaryDirectory() as folder:
-        recorded = filled(command, _unpacked(recording, Path(folder)))
-        cfg = replaced(command, recorded, words)
-        bench = Bench(checked(command, OmegaConf.create(dict(cfg))))
+        cfg = _understood(recording, command, words, Path(folder))
+        bench = Bench(cfg)
         told, fed = tee(steps_told(recording))
         bench.relive(one.step for one in fed)
         field, samples = STAGES[command](bench)
@@ -93,6 +92,23 @@ def anew(recording: Recording, words: Sequence[str] = ()) -> Iterator[Anew]:
 
 def _stored(bench: Bench) -> LearnedMap:
     return load_map(Path(bench.cfg["map"]))
+
+
+def _understood(recording: Recording, command: str, words: Sequence[str], folder: Path) -> Config:
+    """The configuration of a run, changed by `words`, with its inputs in `folder`."""
+    try:
+        recorded = filled(command, _unpacked(recording, folder))
+        checked(command, OmegaConf.create(dict(recorded)))
+    except (UserError, ValueError) as error:
+        wrote = recording.metadata["run"]
+        by = another_program(wrote)
+        if not by or not is_refusal(error):
+            raise
+        raise UserError(
+            f"{recording.path} cannot be recomputed here: {by}, which does not understand its "
+            f"configuration ({error}); type {its_program(wrote)} first"
+        ) from error
+    return checked(command, OmegaConf.create(dict(replaced(command, recorded, words))))
 
 
 def _learning(bench: Bench) -> Staged:
@@ -146,8 +162,8 @@ def configuration(recording: Recording) -> dict[str, Any]:
         UserError: There is none, or it is damaged.
     """
     try:
-        cfg = yaml.safe_load(recording.attachments["config.yaml"])
-    except (KeyError, ValueError, yaml.YAMLError):
+        cfg = read_yaml(recording.attachments["config.yaml"])
+    except (KeyError, ValueError):
         cfg = None
     if not isinstance(cfg, dict):
         raise UserError(f"{recording.path} holds no configuration: it cannot be recomputed")
@@ -157,16 +173,16 @@ def configuration(recording: Recording) -> dict[str, Any]:
 def _unpacked(recording: Recording, folder: Path) -> Config:
     """The configuration with the files that it names written into `folder`."""
     cfg = configuration(recording)
-    for target in _values("_target_", cfg):
+    for target in values("_target_", cfg):
         if target not in known_targets():  # nothing named in a file is called unless we know it
-            raise UserError(f"{recording.path} names {target}: no part of this program")
+            raise UserError(f"{recording.path}: {not_known(target)}")
     files = {hashlib.sha256(data).hexdigest(): data for data in recording.attachments.values()}
     for key, value in cfg.items():
-        if isinstance(value, str) and value.startswith(HASHED):
+        if key in ATTACHED and str(value).startswith(HASHED):
             data = files.get(value.removeprefix(HASHED))
             if data is None:
                 raise UserError(f"{recording.path}: the file of {key}= is missing or was changed")
-            path = folder / ATTACHED.get(key, key)
+            path = folder / ATTACHED[key]
             path.write_bytes(data)
             cfg[key] = str(path)
     models = [data for name, data in recording.attachments.items() if name.endswith(".urdf")]
@@ -174,19 +190,3 @@ def _unpacked(recording: Recording, folder: Path) -> Config:
         (folder / "arm.urdf").write_bytes(models[0])
         cfg["robot"]["arm"]["urdf"] = str(folder / "arm.urdf")
     return {"out": None, **cfg}
-
-
-@cache
-def known_targets() -> frozenset[str]:
-    """Everything that our configuration makes parts of."""
-    texts = [path.read_text() for path in CONF.rglob("*.yaml")]
-    return frozenset(re.findall(r"^\s*_target_: *(\S+)", "\n".join(texts), re.MULTILINE))
-
-
-def _values(key: str, node: Any) -> Iterator[str]:
-    if isinstance(node, dict):
-        for name, value in node.items():
-            yield from [str(value)] if name == key else _values(key, value)
-    elif isinstance(node, list):
-        for value in node:
-            yield from _values(key, value)

@@ -22,7 +22,7 @@ from cli.provenance import run_record, sha256
 from imitation.analysis.cadence import Cadence
 from imitation.analysis.frame_count import FrameCount
 from imitation.device import DeviceError
-from imitation.recording.recorder import Recorder
+from imitation.recording.recorder import Recorder, RecorderError
 from imitation.robot import SECOND, Truth
 from imitation.robots.bullet.world import find_urdf
 from imitation.sample import Event, Sample
@@ -75,9 +75,7 @@ class Run:
         self.log = _log_to(self.folder / "log.txt")
         self.log.info("%s", shlex.join(["imitate", self.command, *self.typed]))
         self.log.info("on %s, %s", platform.node(), platform.platform())
-        (self.folder / "config.yaml").write_text(
-            OmegaConf.to_yaml(OmegaConf.create(dict(self.cfg)))
-        )
+        self.write_config()
         self.bench = Bench(self.cfg)
 
     @property
@@ -88,6 +86,11 @@ class Run:
             return []
         late = f"{self.late_ticks} of {self.steps} late"
         return [("steps a second", f"{rate:.2f} of {1 / self.bench.robot.period:g}, {late}")]
+
+    def write_config(self) -> None:
+        """Write config.yaml."""
+        text = OmegaConf.to_yaml(OmegaConf.create(dict(self.cfg)))
+        (self.folder / "config.yaml").write_text(text)
 
     def uses(self, key: str, path: Path) -> None:
         """Attach the file that the configuration's `key` names to the recording."""
@@ -126,6 +129,9 @@ class Run:
                 robot.close()  # at once: the arm freezes
                 if sample:
                     recorder.tell(sample, Event("device", str(error)))
+                raise
+            except RecorderError:
+                robot.rest()
                 raise
         if interruption.wanted:
             raise KeyboardInterrupt

@@ -20,7 +20,7 @@ from cli.kinds import (
 class Clusters(Section):
     """`map` of learn-map."""
 
-    neurons: Count
+    neurons: Annotated[int, Within(ge=1, le=1000)]
     alpha: Annotated[float, Within(gt=0, le=1)]
     min_activity: Share
     radius: NotNegative

@@ -1,6 +1,6 @@
 """imitate verify: every logged decision is made anew from the logged senses, and compared."""
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -9,7 +9,7 @@ from rich.table import Table
 
 from cli.errors import DONE, NOT_TRUE, UserError, say
 from cli.printed import facts, on_stdout
-from cli.provenance import run_record
+from cli.provenance import another_program
 from cli.recompute import Anew, anew, configuration
 from cli.what_if import replaced
 from imitation.analysis.comparison import Comparison, Difference
@@ -44,17 +44,19 @@ def as_recorded(run: Path) -> int:
             with anew(recording) as decided:
                 compare(found, decided, decided.paired())
     except Exception as error:
-        if not breaks or isinstance(error, UserError):
+        if not breaks or not recording.digest():
             raise
         stopped = str(error)  # whatever a changed recording leads to
     told = [("steps", f"{found.steps} decided anew")]
     told += [("digest", f"{cited(recording.digest())}  {_seal(breaks)}")]
     told += [("decisions", _differing(found) if found.differing else "the same, bit for bit")]
-    told += list(_versions(recording))
+    by = another_program(recording.metadata["run"])
+    told += [("program", f"another: {by}")] if by else []
     show("imitate verify", told, found)
     complaints = [one.sentence for one in breaks]
     complaints += [f"recomputing ended: {stopped}"] if stopped else []
     complaints += [found.first.sentence] if found.first else []
+    complaints += [f"what differs may be the program: {by}"] if found.first and by else []
     for complaint in complaints:
         say(complaint)
     return NOT_TRUE if complaints else DONE
@@ -145,18 +147,3 @@ def _differing(found: Comparison) -> str:
 
 def _seal(breaks: Sequence[Break]) -> str:
     return "does not match the content" if breaks else "matches the content"
-
-
-def _versions(recording: Recording) -> Iterator[tuple[str, str]]:
-    """Which program wrote the recording, when it is not this one."""
-    wrote = recording.metadata["run"]
-    here = run_record(wrote.get("command", ""), 0, "")
-    keys = ("version", "git_revision", "git_dirty")
-    if any(wrote.get(key) != here[key] for key in keys):
-        yield "written by", _program(wrote)
-        yield "this is", _program(here)
-
-
-def _program(record: Mapping[str, str]) -> str:
-    changed = " and changes" if record.get("git_dirty") == "true" else ""
-    return f"{record.get('version', '?')} at {record.get('git_revision', '')[:12]}{changed}"

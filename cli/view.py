@@ -5,11 +5,10 @@ import subprocess
 import sys
 from pathlib import Path
 
-import yaml
-
 from cli.errors import DEVICE, DONE, UserError, say
 from imitation.recording.rerun_view import derive, screenshot
 from imitation.recording.run_files import file_in
+from imitation.recording.yaml_reading import read_yaml
 
 
 def view(run: Path, png: Path | None) -> int:
@@ -43,7 +42,7 @@ def _rrd_of(run: Path) -> Path:
 def demonstration_of(run: Path) -> Path | None:
     """The recording of the demonstration that a run replays, if it lies where it was."""
     config = run / "config.yaml"
-    told = yaml.safe_load(config.read_text()) if config.is_file() else None
+    told = read_yaml(config.read_bytes()) if config.is_file() else None
     action = told.get("action") if isinstance(told, dict) else None
     if not isinstance(action, str):
         return None

@@ -4,11 +4,10 @@ from collections.abc import Mapping, Sequence
 from copy import deepcopy
 from typing import Any
 
-import yaml
-
 from cli.build import Config
 from cli.errors import UserError, nearest
 from cli.keys import groups_of
+from imitation.recording.yaml_reading import read_yaml
 
 # What was sensed cannot be otherwise.
 SENSED = (
@@ -66,6 +65,6 @@ def _dotted(cfg: Mapping[str, Any], above: str) -> list[str]:
 
 def _value(word: str, value: str) -> Any:
     try:
-        return yaml.safe_load(value)
-    except yaml.YAMLError:
+        return read_yaml(value)
+    except ValueError:
         raise UserError(f"{word} cannot be read: put values that hold brackets in quotes") from None

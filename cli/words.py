@@ -2,6 +2,7 @@
 
 import re
 from dataclasses import dataclass, field
+from pathlib import Path
 
 from cli.errors import UserError, nearest
 from cli.keys import groups
@@ -33,6 +34,12 @@ class Words:
     def sweep(self) -> bool:
         """Whether several jobs are asked for."""
         return "--multirun" in self.flags
+
+    @property
+    def config_dirs(self) -> list[Path]:
+        """Folders with configurations of the user's own."""
+        given = (flag.partition("=") for flag in self.flags)
+        return [Path(value) for name, _, value in given if name == "--config-dir"]
 
     @property
     def only_shows(self) -> bool:

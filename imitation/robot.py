@@ -226,6 +226,17 @@ class Robot:
         turned = command.gaze is not None and np.isfinite(command.gaze).all()
         return self._sense(command.gaze if turned else None), applied
 
+    def rest(self) -> None:
+        """Brake as hard as the guard lets, and hold still; nothing is seen meanwhile."""
+        still = np.zeros(len(self.home))
+        while True:
+            self._velocity, _ = self.guard.limit(still, self._velocity, self._posture, self.period)
+            self.arm.move(self._velocity, None, self.period)
+            self._clock.tick()
+            if not self._velocity.any():
+                return
+            self._posture = self.arm.read().posture
+
     def truth(self) -> list[Truth]:
         """What was true at each sensing since this was last asked; empty on a real robot."""
         told, self._truths = self._truths, []

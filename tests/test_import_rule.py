@@ -15,7 +15,7 @@ AT_HOME = {
     "hydra": "cli.",
     "omegaconf": "cli.",
     "pydantic": "cli.",
-    "yaml": ("cli.", "imitation.recording.rerun_view"),
+    "yaml": ("cli.", "imitation.recording.yaml_reading"),
     "rich": "cli.",
     "pybullet": "imitation.robots.bullet.world",
     "pybullet_data": "imitation.robots.bullet.world",

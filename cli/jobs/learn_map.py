@@ -47,6 +47,8 @@ def guide_by_hand(run: Run) -> None:
     robot = run.bench.robot
     postures = guide(robot.arm, run.cfg["robot"]["name"], ask=typed_answer)
     run.bench.guided, robot.home = postures, postures.mean(axis=0)
+    run.cfg["robot"]["guided"] = postures.tolist()  # what is recorded is what was done
+    run.write_config()
     write_guided(run.folder / "guided.yaml", postures)
 
 

@@ -2,24 +2,29 @@
 
 from dataclasses import dataclass
 
-from imitation.recording.digest import OVERALL, Digest
+from imitation.recording.digest import ATTACHMENT, OVERALL, RECORD
 from imitation.recording.mcap_recording import Recording
 from imitation.robot import SECOND
 
+BESIDE = {ATTACHMENT: "the attachment", RECORD: "the record"}
 CITED = 20  # hexadecimal digits of a digest: 80 bits
 
 
 @dataclass(frozen=True)
 class Break:
-    """A topic whose content is not what the recorder wrote."""
+    """A topic, or something beside the messages, that is not what the recorder wrote."""
 
-    topic: str
+    topic: str  # or the digest's name of what is none
     from_ns: int  # it happened between these two times of the run
     to_ns: int
 
     @property
     def sentence(self) -> str:
         """The break in one line."""
+        for beside, what in BESIDE.items():
+            if self.topic.startswith(beside):
+                name = self.topic.removeprefix(beside)
+                return f"{what} {name} was changed after it was written"
         return (
             f"{self.topic} was changed after it was written, "
             f"between {self.from_ns / SECOND:.2f} and {self.to_ns / SECOND:.2f} s"
@@ -32,7 +37,7 @@ def broken(recording: Recording) -> list[Break]:
     Raises:
         ValueError: The file is damaged.
     """
-    digest, found = Digest(), dict[str, Break]()
+    digest, found = recording.begun_digest(), dict[str, Break]()
     end_ns, number = 0, 0
     for number, chunk in enumerate(recording.chunks(), start=1):
         start_ns = min((message.time_ns for message in chunk), default=end_ns)
@@ -43,6 +48,9 @@ def broken(recording: Recording) -> list[Break]:
             break  # cut between a chunk and its digest
         for topic in _changed(told or {}, now):
             found.setdefault(topic, Break(topic, start_ns, end_ns))
+    if not number:  # nothing but what stands before the messages
+        for name in _changed(recording.digest() or digest.values(), digest.values()):
+            found.setdefault(name, Break(name, 0, 0))
     beyond = [name for name in recording.metadata if _number(name) > max(number, 1)]
     if beyond:
         found.setdefault("the end", Break("the end", end_ns, end_ns))

@@ -12,6 +12,7 @@ from pathlib import Path
 
 import numpy as np
 
+from imitation.recording.field_told import LARGEST, told_field, told_size
 from imitation.recording.json_lines import LineError, Node, read_json
 from imitation.recording.run_files import file_in
 from imitation.visual_field import Area, VisualField
@@ -19,7 +20,6 @@ from imitation.visual_states import VisualState
 
 VERSION = 1  # of the file's layout
 MAX_BYTES = 2**18  # an action of a thousand states is smaller
-LARGEST = 10_000  # image that any camera has [px]
 LATEST = 1e6  # longest time that any demonstration takes [s]
 ROUNDING_PX, ROUNDING_S = 0.01, 0.001
 LIST = re.compile(r"\[\s+([^\[\]{}]*?)\s+\]")
@@ -115,14 +115,7 @@ def _action(root: Node, shortest: float, longest: float) -> Action:
 
 def _field(node: Node) -> VisualField:
     told = node.keys(("name", "rows", "columns", "left_px", "size_px"))
-    width, height = (side.whole(1, LARGEST) for side in told["size_px"].items(2))
-    return VisualField(
-        name=told["name"].text(),
-        size=(width, height),
-        rows=told["rows"].whole(1, height),
-        columns=told["columns"].whole(1, width),
-        left=told["left_px"].number(0, width - 1),
-    )
+    return told_field(told, told_size(told["size_px"]))
 
 
 def _state(node: Node) -> dict[str, Node]:

@@ -70,6 +70,14 @@ class Node:
             raise self.wrong('wanted a text "..."')
         return self.value
 
+    def plain(self) -> Any:
+        """The value without the lines."""
+        if isinstance(self.value, dict):
+            return {key: node.plain() for key, node in self.value.items()}
+        if isinstance(self.value, list):
+            return [node.plain() for node in self.value]
+        return self.value
+
 
 def read_json(text: str, name: str) -> Node:
     """The whole of a JSON text; `name` stands for it in errors.

@@ -43,14 +43,15 @@ class McapFile:
     def begin(self, metadata: Mapping[str, str], attachments: Mapping[str, bytes]) -> None:
         """Write what belongs to the run as a whole; it survives every kill."""
         self._writer.start(profile="ros2")
-        self._writer.add_metadata("run", dict(metadata))
-        self._writer.add_metadata("field", _geometry(self._field))
+        self._record("run", dict(metadata))
+        self._record("field", _geometry(self._field))
         if self._clock:
             now = datetime.now(UTC).isoformat(timespec="milliseconds")
-            self._writer.add_metadata("clock", {"started": now})
+            self._record("clock", {"started": now})
         for name, data in attachments.items():
             kind = MEDIA_TYPES.get(Path(name).suffix, "application/octet-stream")
             self._writer.add_attachment(0, 0, name, kind, data)
+            self._digest.attach(name, data)
         self._stream.flush()
 
     def add_chunk(self, messages: Sequence[Message], jpeg: bool) -> None:
@@ -74,6 +75,10 @@ class McapFile:
     def close(self) -> None:
         """Close the file; harmless when repeated."""
         self._stream.close()
+
+    def _record(self, name: str, told: dict[str, str]) -> None:
+        self._writer.add_metadata(name, told)
+        self._digest.record(name, told)
 
     def _write_digest(self) -> None:
         self._digests += 1

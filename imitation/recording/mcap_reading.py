@@ -43,15 +43,18 @@ class Contents:
     attachments: dict[str, bytes] = field(default_factory=dict)
     channels: dict[int, Channel] = field(default_factory=dict)
     schemas: dict[int, Schema] = field(default_factory=dict)
+    twice: str = ""  # a name that two different records have; empty: none
 
     def take(self, record: McapRecord) -> None:
         """Keep what `record` says."""
         if isinstance(record, Header):
             self.profile = record.profile
         elif isinstance(record, Metadata):
-            self.metadata[record.name] = record.metadata
+            if self.metadata.setdefault(record.name, record.metadata) != record.metadata:
+                self.twice = record.name
         elif isinstance(record, Attachment):
-            self.attachments[record.name] = record.data
+            if self.attachments.setdefault(record.name, record.data) != record.data:
+                self.twice = record.name
         elif isinstance(record, Channel):
             self.channels[record.id] = record
         elif isinstance(record, Schema):

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from imitation.recording import messages
-from imitation.recording.digest import Digest
+from imitation.recording.digest import ATTACHMENT, RECORD, RECORDS, Digest
 from imitation.recording.mcap_reading import Contents, chunks, contents
 from imitation.recording.run_files import file_in
 from imitation.recording.step_messages import Message, Topic
@@ -52,6 +52,8 @@ class Recording:
             raise ValueError(f"{file} is no recording of this bench: it is not a ROS 2 bag")
         if not {"run", "field"} <= found.metadata.keys():
             raise ValueError(f"{file} is no recording of this bench: its record `run` is missing")
+        if found.twice:
+            raise ValueError(f"{file} is damaged: it says {found.twice} twice, not the same")
         return cls(file, found)
 
     @property
@@ -99,7 +101,19 @@ class Recording:
         Raises:
             ValueError: The file is damaged.
         """
-        digest = Digest()
+        digest = self.begun_digest()
         for chunk in self.chunks():
             digest.add(chunk)
         return digest.values()
+
+    def begun_digest(self) -> Digest:
+        """The digest of what stands before the messages; of nothing in files of older versions."""
+        digest = Digest()
+        if not any(name.startswith((ATTACHMENT, RECORD)) for name in self.digest()):
+            return digest
+        for name in RECORDS:
+            if name in self.metadata:
+                digest.record(name, self.metadata[name])
+        for name, data in self.attachments.items():
+            digest.attach(name, data)
+        return digest

@@ -12,7 +12,7 @@ from mcap.opcode import Opcode
 from mcap.records import Attachment, Channel, Chunk, Metadata, Schema
 from mcap.writer import CompressionType
 
-from imitation.recording.digest import Digest
+from imitation.recording.digest import RECORDS, Digest
 from imitation.recording.mcap_quick import NO_LIMIT, QuickWriter
 from imitation.recording.mcap_reading import MESSAGE_FIELDS, parts, records, unpacked
 from imitation.recording.run_files import free
@@ -70,9 +70,12 @@ class Recovery:
         if isinstance(record, Metadata):
             self._names.add(record.name)
             self._digests += record.name.startswith("digest/")
+            if record.name in RECORDS:
+                self._digest.record(record.name, record.metadata)
             writer.add_metadata(record.name, record.metadata)
         elif isinstance(record, Attachment):
             times = (record.create_time, record.log_time)
+            self._digest.attach(record.name, record.data)
             writer.add_attachment(*times, record.name, record.media_type, record.data)
         else:
             self._copy_chunk(writer, list(parts(unpacked(self.cut, record))))

@@ -91,8 +91,8 @@ class Recorder:
                 f"{self.path.name} cannot keep up: nothing written for {self._patience} s; "
                 "record to a faster disk"
             ) from full
-        except OSError as error:
-            raise self._failure(error) from error
+        except WorkFailedError as error:
+            raise self._failure(error.__cause__ or error) from error
 
     def close(self) -> None:
         """Write what waits, seal the file and close it; harmless when repeated.

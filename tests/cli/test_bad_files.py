@@ -4,10 +4,12 @@ import shutil
 import subprocess
 import sys
 
-import numpy as np
 import pytest
+import yaml
+from damage import damaged, distorted, positions, to_bytes, to_values
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
+from tampering import counts, rewrite
 
 from cli.explain import explain
 from cli.export import export
@@ -29,32 +31,6 @@ COMMANDS = {
     "recover": recover_run,
     "export": lambda path: export([path, path.with_suffix(".csv")], "csv"),
 }
-
-positions = st.floats(0, 1, exclude_max=True)
-damages = st.one_of(
-    st.tuples(st.just("cut"), positions, st.just(0)),
-    st.tuples(st.just("flip"), positions, st.integers(0, 7)),
-    st.tuples(st.just("huge"), positions, st.integers(1, 8)),
-    st.tuples(st.just("zero"), positions, st.integers(1, 5000)),
-    st.tuples(st.just("insert"), positions, st.integers(1, 50)),
-)
-
-
-def damaged(data, damage):
-    """`data` with a damage done to it."""
-    kind, where, how = damage
-    at, data = int(where * len(data)), bytearray(data)
-    if kind == "cut":
-        return bytes(data[:at])
-    if kind == "flip":
-        data[at] ^= 1 << how
-    elif kind == "huge":
-        data[at : at + how] = b"\xff" * how
-    elif kind == "zero":
-        data[at : at + how] = bytes(len(data[at : at + how]))
-    else:
-        data[at:at] = np.random.default_rng(how).bytes(how)
-    return bytes(data)
 
 
 @pytest.fixture(scope="module")
@@ -85,7 +61,7 @@ def one_line(capsys):
 
 
 @settings(max_examples=EXAMPLES, **LIMITS)
-@given(damages, st.sampled_from(sorted(COMMANDS)))
+@given(to_bytes, st.sampled_from(sorted(COMMANDS)))
 def test_a_damaged_recording_is_one_line(small, tmp_path, capsys, damage, name):
     check(small, tmp_path / "x", damage, name)
     one_line(capsys)
@@ -94,7 +70,7 @@ def test_a_damaged_recording_is_one_line(small, tmp_path, capsys, damage, name):
 @pytest.mark.slow
 @pytest.mark.timeout(3600)
 @settings(max_examples=MANY, **LIMITS)
-@given(damages, st.sampled_from(sorted(COMMANDS)))
+@given(to_bytes, st.sampled_from(sorted(COMMANDS)))
 def test_many_damaged_recordings_are_one_line(small, tmp_path, capsys, damage, name):
     check(small, tmp_path / "x", damage, name)
     one_line(capsys)
@@ -105,8 +81,6 @@ def test_many_damaged_recordings_are_one_line(small, tmp_path, capsys, damage, n
 def test_a_damaged_message_with_right_checksums_is_one_line(
     small, tmp_path, capsys, where, value, name
 ):
-    from tampering import counts, rewrite
-
     wanted = int(where * sum(counts(small).values()))
     seen = []
 
@@ -139,3 +113,55 @@ def test_memory_stays_small(small, tmp_path):
     told = subprocess.run(call, capture_output=True, text=True, check=False)
     assert told.returncode == 2 and len(told.stderr.splitlines()) == 1, told.stderr
     assert int(told.stdout.split()[-1]) < 1_000_000  # kB
+
+
+def check_config(small, folder, damage, name):
+    """A configuration that is not as it should be, in a recording that is sound otherwise."""
+    folder.mkdir(exist_ok=True)
+    (folder / "run.csv").unlink(missing_ok=True)
+    path = folder / "run.mcap"
+
+    def attach(one, data):
+        if one != "config.yaml":
+            return data
+        if len(damage) == 3:
+            return damaged(data, damage)
+        return yaml.safe_dump(distorted(yaml.safe_load(data), damage)).encode()
+
+    rewrite(small, path, attach=attach, sealed=True)
+    assert reading(path, lambda: COMMANDS[name](path)) in (0, 1, 2), damage
+
+
+@settings(max_examples=EXAMPLES // 2, **LIMITS)
+@given(to_bytes | to_values, st.sampled_from(sorted(COMMANDS)))
+def test_a_damaged_configuration_in_a_recording_is_one_line(small, tmp_path, capsys, damage, name):
+    check_config(small, tmp_path / "x", damage, name)
+    one_line(capsys)
+
+
+@pytest.mark.slow
+@pytest.mark.timeout(3600)
+@settings(max_examples=MANY // 4, **LIMITS)
+@given(to_bytes | to_values, st.sampled_from(sorted(COMMANDS)))
+def test_many_damaged_configurations_in_recordings(small, tmp_path, capsys, damage, name):
+    check_config(small, tmp_path / "x", damage, name)
+    one_line(capsys)
+
+
+@pytest.mark.parametrize("name", sorted(COMMANDS))
+def test_attachments_are_never_written_where_their_names_say(small, tmp_path, name):
+    """Nor is a file anywhere read that a configuration names."""
+    tricks = ("../../trick", str(tmp_path / "trick"), "map.npz/../../trick", "..", "a\0b", "")
+    (tmp_path / "x").mkdir()
+
+    def attach(one, data):
+        if one == "config.yaml":
+            return data.replace(b"map: sha256:", b"map: /etc/passwd #")
+        return data
+
+    for trick in tricks:
+        rewrite(small, tmp_path / "x" / "run.mcap", attach=attach, sealed=True, renamed=trick)
+        path = tmp_path / "x" / "run.mcap"
+        assert reading(path, lambda path=path: COMMANDS[name](path)) in (0, 2)
+        (tmp_path / "x" / "run.csv").unlink(missing_ok=True)
+    assert {one.name for one in tmp_path.rglob("*")} <= {"x", "run.mcap"}

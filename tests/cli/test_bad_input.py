@@ -30,7 +30,7 @@ TYPED = [
     (["learn-map", "hydra/launcher=slurm"], ["slurm", "submitit_slurm"]),
     (["learn-map", "seed=abc"], ["seed=abc", "whole number"]),
     (["learn-map", "seed=-1"], ["seed=-1", "greater than or equal to 0"]),
-    (["learn-map", "period=0"], ["period=0", "greater than 0"]),
+    (["learn-map", "period=0"], ["period=0", "greater than or equal to 0.001"]),
     (["learn-map", "period=0.033"], ["period=0.033", "rate=250", "period=0.032"]),
     (["learn-map", "vision.hue=[0,400]"], ["vision.hue[1]=400", "179"]),
     (["learn-map", "camera.eye=[0,0]"], ["camera.eye", "3 items"]),

@@ -1,10 +1,10 @@
 """A killed run loses a second at most and is made whole again; a full disk ends a run well."""
 
+import errno
 import json
 import os
 import subprocess
 import sys
-import time
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -12,7 +12,10 @@ import numpy as np
 import pytest
 from rosbags.highlevel import AnyReader
 
+from cli.experiments import composed
+from imitation.recording.mcap_file import McapFile
 from imitation.recording.mcap_recording import Recording
+from imitation.robots.ideal import IdealArm
 
 KILLS = 30  # of each stage
 TELLING = """
@@ -30,21 +33,34 @@ STAGES = {
     "reach": ["reach", "map={map}", "controller=noise", "trials=99"],
     "mimic": ["mimic", "map={map}", "duration=120"],
     "demo-record": ["demo-record", "demo.gone=60"],
+    "replay": ["replay", "map={map}", "action={action}", "replay.after=60"],
 }
+LONGEST = {"learn-map": 250, "demo-record": 280}  # steps that a run has for certain
 
 
-def killed(folder, words, after):
-    """Time of the last step [ns] of a run killed `after` seconds from its first step on."""
-    call = [sys.executable, "-c", TELLING, *words, "robot=ideal", f"out={folder}"]
+def killed(folder, words, after, robot="ideal"):
+    """Time of the last step [ns] of a run killed when it has made `after` steps or a few more."""
+    call = [sys.executable, "-c", TELLING, *words, f"robot={robot}", f"out={folder}"]
     process = subprocess.Popen(
         call, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True, cwd=folder.parent
     )
-    first = process.stdout.readline()
-    time.sleep(after)
+    told = [process.stdout.readline() for _ in range(after)]
     process.kill()
-    told = process.stdout.read().split()
+    told += process.stdout.read().split()
     process.wait()
-    return int(([first, *told] if told else [first])[-1])
+    return int(told[-1])
+
+
+@pytest.fixture(scope="module")
+def action(tmp_path_factory):
+    """Folder of an action that was watched: not to be changed."""
+    from typer.testing import CliRunner
+
+    from cli.main import app
+
+    folder = tmp_path_factory.mktemp("action") / "run"
+    CliRunner().invoke(app, ["demo-record", "robot=ideal", f"out={folder}"])
+    return folder
 
 
 def check_recovered(imitate, run):
@@ -63,12 +79,11 @@ def check_recovered(imitate, run):
     assert subprocess.run(call, capture_output=True, check=False).returncode == 0
 
 
-def check_a_kill(imitate, learned, run, stage, after):
-    words = [word.format(map=learned) for word in STAGES[stage]]
-    last_ns = killed(run, words, after)
+def check_a_kill(imitate, learned, action, run, stage, after, robot="ideal"):
+    words = [word.format(map=learned, action=action) for word in STAGES[stage]]
+    last_ns = killed(run, words, after, robot)
     cut = Recording.open(run)
-    if cut.whole:
-        return  # it had come to its end
+    assert not cut.whole, "it had come to its end"
     written = [time_ns for time_ns, _ in cut.messages("/joint_command/sent")]
     assert last_ns - (written[-1] if written else -40_000_000) <= 1_000_000_000
     before = (run / "run.mcap").read_bytes()
@@ -80,17 +95,25 @@ def check_a_kill(imitate, learned, run, stage, after):
     check_recovered(imitate, run)
 
 
-@pytest.mark.parametrize("stage", ["mimic"])
-def test_a_killed_run_is_recovered(imitate, learned, tmp_path, stage):
-    check_a_kill(imitate, learned, tmp_path / "run", stage, after=0.3)
+@pytest.mark.parametrize("stage", ["mimic", "replay"])
+def test_a_killed_run_is_recovered(imitate, learned, action, tmp_path, stage):
+    check_a_kill(imitate, learned, action, tmp_path / "run", stage, after=60)
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("number", range(KILLS))
 @pytest.mark.parametrize("stage", STAGES)
-def test_a_killed_run_is_recovered_whenever_it_happens(imitate, learned, tmp_path, stage, number):
-    after = np.random.default_rng(number).uniform(0.0, 1.5)
-    check_a_kill(imitate, learned, tmp_path / "run", stage, after)
+def test_a_killed_run_is_recovered_whenever_it_happens(
+    imitate, learned, action, tmp_path, stage, number
+):
+    after = int(np.random.default_rng(number).integers(1, LONGEST.get(stage, 400)))
+    check_a_kill(imitate, learned, action, tmp_path / "run", stage, after)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("stage", STAGES)
+def test_a_killed_run_in_the_engine_is_recovered(imitate, learned, action, tmp_path, stage):
+    check_a_kill(imitate, learned, action, tmp_path / "run", stage, 150, robot="katana_sim")
 
 
 @pytest.mark.parametrize("share", [0.05, 0.8])
@@ -145,7 +168,7 @@ def test_a_run_that_goes_on_is_not_recovered(imitate, learned, tmp_path):
 
 
 def test_the_next_run_writes_nothing_over(imitate, learned, tmp_path):
-    killed(tmp_path / "run", ["learn-map"], after=0.1)
+    killed(tmp_path / "run", ["learn-map"], after=5)
     before = (tmp_path / "run" / "run.mcap").read_bytes()
     told = imitate("learn-map", "robot=ideal", "out=run")
     assert told.exit_code == 2 and "out=run-2" in told.stderr
@@ -190,3 +213,28 @@ def test_a_full_quota_ends_the_run(imitate, tmp_path):
     assert json.loads((tmp_path / "run" / "metrics.json").read_text())["status"] == "failed"
     assert imitate("recover", "run").exit_code == 0
     check_recovered(imitate, tmp_path / "run")
+
+
+def test_a_recorder_that_fails_lets_the_arm_come_to_rest_first(imitate, monkeypatch):
+    """The last that is sent is no movement, and every joint brakes as hard as it may, no harder."""
+    sent, wrote = [], McapFile.add_chunk
+    moved = IdealArm.move
+
+    def full(self, messages, jpeg):
+        if messages[0].time_ns > 1e9:
+            raise OSError(errno.ENOSPC, "No space left on device")
+        wrote(self, messages, jpeg)
+
+    def move(self, velocity, grip, period):
+        sent.append(velocity)
+        return moved(self, velocity, grip, period)
+
+    monkeypatch.setattr(McapFile, "add_chunk", full)
+    monkeypatch.setattr(IdealArm, "move", move)
+    told = imitate("learn-map", "robot=ideal", "out=run")
+    assert told.exit_code == 3 and len(told.stderr.splitlines()) == 1, told.output
+    assert not sent[-1].any() and sent[-2].any()
+    braked = np.array(sent[-4:])
+    hardest = composed("learn-map", "robot=ideal")["robot"]["arm"]["acceleration"]
+    assert (np.abs(np.diff(braked, axis=0)) <= np.array(hardest) * 0.04 + 1e-9).all()
+    assert any(Recording.open(Path("run")).messages("/joint_states"))

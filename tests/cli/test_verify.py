@@ -208,9 +208,101 @@ def test_a_changed_decision_is_told_with_time_term_and_size(reached, tmp_path, c
     assert "off by 0.5" in told
 
 
-def test_rewriting_without_a_change_breaks_nothing(reached, tmp_path):
-    rewrite(reached / "run.mcap", tmp_path / "run.mcap", lambda topic, number, data: data)
+@pytest.mark.parametrize("sealed", [False, True])
+def test_rewriting_without_a_change_breaks_nothing(reached, tmp_path, sealed):
+    rewrite(reached / "run.mcap", tmp_path / "run.mcap", sealed=sealed)
     assert verify(tmp_path) == 0
+    assert Recording.open(tmp_path).digest() == Recording.open(reached).digest()
+
+
+@pytest.mark.parametrize("name", ["config.yaml", "map.npz", "katana_6m180.urdf"])
+def test_a_changed_attachment_is_found(reached, tmp_path, capsys, name):
+    def attach(one, data):
+        return data.replace(b"5", b"6", 1) if one == name else data
+
+    rewrite(reached / "run.mcap", tmp_path / "run.mcap", attach=attach)
+    assert verify(tmp_path) == 1
+    told = capsys.readouterr()
+    assert f"the attachment {name} was changed after it was written" in told.err
+    assert "does not match the content" in told.out
+
+
+@pytest.mark.parametrize(("name", "key"), [("run", "seed"), ("field", "x_edges_px")])
+def test_a_changed_record_is_found(reached, tmp_path, capsys, name, key):
+    def tell(one, told):
+        return told | {key: told[key] + "1"} if one == name else told
+
+    rewrite(reached / "run.mcap", tmp_path / "run.mcap", tell=tell)
+    assert verify(tmp_path) == 1
+    assert f"the record {name} was changed after it was written" in capsys.readouterr().err
+
+
+def test_a_cut_recording_has_a_digest_of_its_attachments_too(imitate, reached, tmp_path):
+    rewrite(reached / "run.mcap", tmp_path / "x.mcap", attach=lambda name, data: data + b"\n")
+    whole = (tmp_path / "x.mcap").read_bytes()
+    (tmp_path / "x.mcap").write_bytes(whole[: 4 * len(whole) // 5])
+    told = imitate("verify", "x.mcap")
+    assert told.exit_code == 1 and "the attachment config.yaml was changed" in told.stderr
+    (tmp_path / "x.mcap").write_bytes((reached / "run.mcap").read_bytes()[: 4 * len(whole) // 5])
+    assert imitate("verify", "x.mcap").exit_code == 0
+
+
+def by_another(reached, target, config=lambda text: text, **record):
+    """A sound recording that another program made."""
+    rewrite(
+        reached / "run.mcap",
+        target,
+        attach=lambda name, data: config(data) if name == "config.yaml" else data,
+        tell=lambda name, told: told | record if name == "run" else told,
+        sealed=True,
+    )
+
+
+def test_a_recording_of_another_version_is_told_with_what_to_do(imitate, reached, tmp_path):
+    for record, todo in (
+        ({"version": "9.1", "git_revision": ""}, "emergent-imitation-bench==9.1"),
+        ({"version": "9.1", "git_revision": "0123456789abcdef"}, "git checkout 0123456789ab"),
+    ):
+        target = tmp_path / "newer.mcap"
+        by_another(reached, target, lambda text: text + b"novelty: 3\n", **record)
+        for words in (
+            ["verify"],
+            ["explain", "--at", "0.5"],
+            ["verify", "--with", "dynamics.beta=3"],
+        ):
+            told = imitate(words[0], str(target), *words[1:])
+            assert told.exit_code == 2 and len(told.stderr.splitlines()) == 1, told.output
+            assert "recorded by version 9.1" in told.stderr and todo in told.stderr
+            assert "unknown key novelty" in told.stderr
+        assert imitate("inspect", str(target)).exit_code == 0
+
+
+def test_another_revision_that_decides_alike_is_only_mentioned(imitate, reached, tmp_path):
+    by_another(reached, tmp_path / "other.mcap", git_revision="0123456789abcdef", git_dirty="false")
+    told = imitate("verify", "other.mcap")
+    assert told.exit_code == 0 and "at 0123456789ab" in told.stdout
+
+
+def test_another_revision_that_decides_otherwise_is_named_as_a_cause(imitate, reached, tmp_path):
+    def steeper(text):
+        return text.replace(b"beta: 2.0", b"beta: 3.0")
+
+    by_another(reached, tmp_path / "other.mcap", steeper, git_revision="0123456789abcdef")
+    told = imitate("verify", "other.mcap")
+    assert told.exit_code == 1
+    assert "what differs may be the program: it was recorded by version" in told.stderr
+
+
+def test_learning_from_postures_led_to_by_hand_is_the_same_bit_for_bit(imitate, monkeypatch):
+    from cli.build import Bench
+    from cli.experiments import composed
+
+    led = Bench(composed("learn-map", "robot=ideal")).guided + 0.01
+    monkeypatch.setattr("cli.jobs.learn_map.guide", lambda arm, robot, ask: led)
+    told = imitate("learn-map", "robot=ideal", "guide=true", "learning.patience=2", "out=run")
+    assert told.exit_code in (0, 1), told.output
+    assert imitate("verify", "run").exit_code == 0
+    assert Path("run/guided.yaml").is_file()
 
 
 def test_what_if_tells_differences_and_records_them(imitate, reached, tmp_path):
@@ -278,7 +370,7 @@ def test_nothing_that_a_recording_names_is_called_unless_we_know_it(imitate, rea
         writer.finish()
     result = imitate("verify", str(tmp_path / "bad.mcap"))
     assert result.exit_code == 2
-    assert "os.system: no part of this program" in result.stderr
+    assert "os.system is no part of this program" in result.stderr
 
 
 def test_one_with_takes_several_parameters_and_none_stands_alone(imitate, reached, tmp_path):

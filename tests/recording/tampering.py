@@ -1,4 +1,4 @@
-"""Changes one message of a recording as someone might who makes all checksums right again."""
+"""Changes one part of a recording as someone might who makes all checksums right again."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -8,21 +8,51 @@ from mcap.records import Attachment, Channel, Chunk, Metadata, Schema
 from mcap.stream_reader import StreamReader, breakup_chunk
 from mcap.writer import CompressionType, Writer
 
+from imitation.recording.digest import RECORDS, Digest
+from imitation.recording.step_messages import Message
+
 Change = Callable[[str, int, bytes], bytes]  # topic, number of the message, data -> data
+Attach = Callable[[str, bytes], bytes]  # name, data -> data
+Tell = Callable[[str, dict[str, str]], dict[str, str]]  # name, what it tells -> that
 
 
-def rewrite(source: Path, target: Path, change: Change) -> None:
-    """Write `source` again, message by message, each as `change` returns it."""
+def as_it_is(topic: str, number: int, data: bytes) -> bytes:
+    """A message."""
+    return data
+
+
+def rewrite(
+    source: Path,
+    target: Path,
+    change: Change = as_it_is,
+    attach: Attach = lambda name, data: data,
+    tell: Tell = lambda name, told: told,
+    sealed: bool = False,
+    renamed: str | None = None,
+) -> None:
+    """Write `source` again, each part as `change`, `attach` or `tell` returns it.
+
+    With `sealed`, the digests are made anew as well; the last attachment is `renamed`.
+    """
     numbers: dict[str, int] = {}
     channels: dict[int, str] = {}
+    digest = Digest()
     with source.open("rb") as stream, target.open("wb") as out:
         writer = Writer(out, 1 << 40, CompressionType.ZSTD)
         writer.start(profile="ros2")
         for record in StreamReader(stream, emit_chunks=True).records:
             if isinstance(record, Metadata):
-                writer.add_metadata(record.name, record.metadata)
+                told = tell(record.name, record.metadata)
+                if record.name in RECORDS:
+                    digest.record(record.name, told)
+                resealed = sealed and record.name.startswith("digest/")
+                writer.add_metadata(record.name, digest.values() if resealed else told)
             elif isinstance(record, Attachment):
-                writer.add_attachment(0, 0, record.name, record.media_type, record.data)
+                data = attach(record.name, record.data)
+                last = renamed is not None and record.name.endswith(".urdf")
+                name = str(renamed) if last else record.name
+                digest.attach(name, data)
+                writer.add_attachment(0, 0, name, record.media_type, data)
             elif isinstance(record, Chunk):
                 for inner in breakup_chunk(record):
                     if isinstance(inner, Schema):
@@ -37,6 +67,7 @@ def rewrite(source: Path, target: Path, change: Change) -> None:
                         number = numbers[topic] = numbers.get(topic, -1) + 1
                         data = change(topic, number, inner.data)
                         at = inner.log_time
+                        digest.add([Message(topic, at, data)])
                         writer.add_message(inner.channel_id, at, data, at)
                 writer.flush()
         writer.finish()

@@ -62,7 +62,7 @@ def test_same_run_gives_the_same_bytes(record):
 def test_messages_are_the_same_when_chunks_close_by_the_clock(record):
     by_robot_time, by_clock = record("a.mcap"), record("b.mcap", reproducible=False)
     one, other = Recording.open(by_robot_time), Recording.open(by_clock)
-    assert one.digest() == other.digest()
+    assert all(one.digest()[topic] == other.digest()[topic] for topic in one.topics)
     assert "clock" in other.metadata and "clock" not in one.metadata
 
 

@@ -7,13 +7,13 @@ from typing import Any
 import numpy as np
 import pyarrow as pa  # type: ignore[import-untyped]
 import rerun as rr
-import yaml
 from rerun.urdf import UrdfJoint, UrdfTree
 
 from imitation.arrays import Array
 from imitation.recording.overview import Overview
 from imitation.recording.picture_columns import Batch
 from imitation.recording.rerun_view.columns import send
+from imitation.recording.yaml_reading import read_yaml
 
 OBJECT = "arm/object"
 FRAME = "object"
@@ -30,7 +30,7 @@ class BodyDrawing:
         assert shown.urdf is not None
         self._tree = _tree(shown.urdf)
         self._joints = list(shown.topics["/joint_states"].names)
-        told = yaml.safe_load(shown.attachments.get("config.yaml", b"")) or {}
+        told = read_yaml(shown.attachments.get("config.yaml", b"")) or {}
         arm = told.get("robot", {}).get("arm", {})
         self._base = np.array(arm.get("base", (0.0, 0.0, 0.0)))
         fingers = (arm.get("gripper") or {}).get("joints", [])
