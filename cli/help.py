@@ -64,8 +64,15 @@ EXAMPLES = {
     "replay": [
         ("imitate replay map=RUN action=RUN", "a hand at the action's first state triggers it"),
         ("imitate replay map=RUN action=RUN replay.precision=area", "as in the paper: eyes closed"),
-        ("imitate replay map=RUN action=RUN 'demonstrator.place=[85,75]'", "it begins later on"),
-        ("imitate replay map=RUN action=RUN object=null", "without the can"),
+        (
+            "imitate replay map=RUN action=RUN 'demonstrator.place=[85,75]'",
+            "a hand at the second state, where the can stands: the robot goes on from there",
+        ),
+        ("imitate replay map=RUN action=RUN object=null", "control: without the can"),
+        (
+            "imitate replay map=RUN action=RUN robot.arm.gripper.force=0",
+            "control: a gripper that cannot hold",
+        ),
         ("imitate replay map=RUN action=RUN experiment=deferred_controls", "beside chance"),
     ],
     "figure": [

@@ -48,8 +48,15 @@ def defaults(command: str) -> dict[str, str]:
 
 
 def own_keys(command: str) -> list[str]:
-    """A command's keys outside its groups."""
-    return [key for name in _files(command) for key in _read(CONF / f"{name}.yaml", "")]
+    """A command's keys outside its groups, and in those that leave no choice."""
+    own, *shared = _files(command)
+    lone = [
+        (CONF / group / f"{choice}.yaml", group)
+        for group, choice in _chosen(CONF / f"{own}.yaml").items()
+        if groups().get(group) == [choice]
+    ]
+    files = [(CONF / f"{own}.yaml", ""), *lone, *((CONF / f"{one}.yaml", "") for one in shared)]
+    return [key for path, prefix in files for key in _read(path, prefix)]
 
 
 @cache
@@ -71,10 +78,16 @@ def _files(command: str) -> list[str]:
 
 def _choices(folder: Path) -> list[str]:
     """Its files, but for those that only others include."""
+    chosen = {_chosen(path).get(folder.name) for path in CONF.glob("*.yaml")}
     texts = {path.stem: path.read_text() for path in sorted(folder.glob("*.yaml"))}
     included = {name for text in texts.values() for name in INCLUDED.findall(text)}
     named = {stem for stem, text in texts.items() if re.search(r"^name:", text, re.MULTILINE)}
-    return [stem for stem in texts if stem not in included or stem in named]
+    return [stem for stem in texts if stem not in included or stem in named | chosen]
+
+
+def _chosen(path: Path) -> dict[str, str]:
+    """What a command's file chooses of each group."""
+    return dict(re.findall(r"^  - (\w+): (\w+)", path.read_text(), re.MULTILINE))
 
 
 def _read(path: Path, prefix: str) -> dict[str, tuple[str, str]]:

@@ -1,40 +1,17 @@
 """The program `imitate`: one thin command for each stage."""
 
-import sys
 from pathlib import Path
 from typing import Annotated, Any
 
 import typer
-from typer.core import TyperGroup
-from typer.exceptions import TyperException
 
-from cli.errors import BAD_INPUT, in_usage, no_such, say
+from cli.command_group import Commands
+from cli.errors import BAD_INPUT, no_such, say
 from cli.figures import FIGURES
 from cli.help import StageCommand, complete, figure_names
 from cli.launch import launch
 
-
-class OneLineErrors(TyperGroup):
-    """Commands whose errors are one line, instead of Typer's box."""
-
-    def main(self, *args: Any, **more: Any) -> Any:
-        """Run the program and exit."""
-        more |= {"standalone_mode": False, "prog_name": "imitate"}
-        try:
-            code = super().main(*args, **more)
-        except TyperException as error:
-            say(in_usage(error))
-            code = BAD_INPUT
-        sys.exit(code)
-
-    def resolve_command(self, ctx: Any, args: list[str]) -> Any:
-        """The command that was typed, refused with all the names there are."""
-        if args[0] not in self.commands and not args[0].startswith("-"):
-            raise TyperException(no_such("command", args[0], list(self.commands)))
-        return super().resolve_command(ctx, args)
-
-
-app = typer.Typer(cls=OneLineErrors, rich_markup_mode=None, pretty_exceptions_enable=False)
+app = typer.Typer(cls=Commands, rich_markup_mode=None, pretty_exceptions_enable=False)
 
 STAGE: dict[str, Any] = {
     "cls": StageCommand,

@@ -11,6 +11,7 @@ from typer.main import get_command
 
 import imitation
 from cli.check import checked
+from cli.command_group import GROUPS
 from cli.errors import UserError
 from cli.help import EXAMPLES, complete
 from cli.keys import CONF, comments, groups, groups_of
@@ -31,7 +32,7 @@ def test_a_command_is_documented_in_the_readme(name):
 def test_a_command_has_help(imitate, name):
     result = imitate(name, "--help")
     assert result.exit_code == 0
-    assert get_command(app).commands[name].help in result.stdout
+    assert get_command(app).commands[name].help in " ".join(result.stdout.split())
 
 
 @pytest.mark.parametrize("name", sorted(COMMANDS))
@@ -155,3 +156,11 @@ def test_every_number_of_a_command_says_what_it_is(path):
         value = OmegaConf.select(OmegaConf.load(path), key, throw_on_resolution_failure=False)
         if isinstance(value, int | float):
             assert told, f"{key} has no comment"
+
+
+def test_the_help_names_every_command_in_one_group(imitate):
+    named = [name for names in GROUPS.values() for name in names]
+    assert sorted(named) == sorted(get_command(app).commands)
+    out = imitate("--help").stdout
+    assert all(f"{title}:" in out for title in GROUPS)
+    assert all(f"  {name} " in out for name in named)
