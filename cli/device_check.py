@@ -112,7 +112,8 @@ def _servos(arm: ServoArm) -> str:
         f"limited to {100 * found.torque_limit.max():.0f} %"
     )
     if found.temperature[hottest] > found.hottest[hottest] - NEARLY:
-        raise Suspicious(f"{told}: let {arm.body.joint_names[hottest]} cool")
+        name = (*arm.body.joint_names, "the jaw")[hottest]
+        raise Suspicious(f"{told}: let {name} cool")
     return told
 
 

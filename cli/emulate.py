@@ -7,6 +7,7 @@ from pathlib import Path
 from cli.errors import DONE, UserError, no_such
 from imitation.robots import servo_bus_emulator as servo_bus
 from imitation.robots import ssc32_emulator as ssc32
+from imitation.robots.emulated_servos import MAKES
 from imitation.robots.faults import Faults, read_fault
 from imitation.robots.katana.emulated_arm import EmulatedArm
 from imitation.robots.katana.emulator import FAULTS, KatanaEmulator
@@ -20,7 +21,7 @@ DEVICES = {"katana": FAULTS, "ssc32": ssc32.FAULTS, "servo-bus": servo_bus.FAULT
 class Asked:
     """What was typed after the device's name."""
 
-    model: str
+    model: str | None
     port: int | None
     pty: Path | None
     faults: Sequence[str]
@@ -46,11 +47,13 @@ def _device(name: str, asked: Asked) -> Device:
         raise UserError(no_such("device", name, list(DEVICES)))
     if not asked.speed > 0:
         raise UserError(f"--speed is a factor above 0, not {asked.speed:g}")
-    if asked.model not in MODELS:
-        raise UserError(no_such("model", asked.model, list(MODELS)))
+    models = MAKES if name == "servo-bus" else MODELS
+    model = asked.model or ("sts3215" if name == "servo-bus" else "400")
+    if model not in models:
+        raise UserError(no_such("model", model, list(models)))
     faults = Faults([read_fault(one, DEVICES[name]) for one in asked.faults])
     if name == "ssc32":
         return ssc32.Ssc32Emulator(faults, asked.speed)
     if name == "servo-bus":
-        return servo_bus.ServoBusEmulator(faults=faults, speed=asked.speed)
-    return KatanaEmulator(EmulatedArm(MODELS[asked.model]), faults, asked.speed)
+        return servo_bus.ServoBusEmulator(make=MAKES[model], faults=faults, speed=asked.speed)
+    return KatanaEmulator(EmulatedArm(MODELS[model]), faults, asked.speed)

@@ -114,7 +114,10 @@ def view(
 @app.command()
 def emulate(
     device: Annotated[str, typer.Argument(metavar="DEVICE", help="katana | ssc32 | servo-bus")],
-    model: Annotated[str, typer.Option(help="Of the Katana: 300, 400 or 450.")] = "400",
+    model: Annotated[
+        str | None,
+        typer.Option(help="Katana: 300, 400, 450; servos: sts3215, xl330, xl430, xm430."),
+    ] = None,
     port: Annotated[int | None, typer.Option(help="TCP port on 127.0.0.1; 0: a free one.")] = None,
     pty: Annotated[Path | None, typer.Option(help="Serial port to make.")] = None,
     fault: Annotated[

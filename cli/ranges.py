@@ -21,6 +21,7 @@ from cli.kinds import (
 )
 
 Pulse = Annotated[int, Within(ge=500, le=2500)]  # [us]
+ServoId = Annotated[int, Within(ge=0, le=252)]
 Byte = Annotated[int, Within(ge=0, le=255)]
 
 
@@ -62,6 +63,18 @@ class Sensing(Section):
     close: Byte
     reach: Positive
     pressed: Byte
+
+
+class Jaw(Section):
+    """`robot.arm.jaw`."""
+
+    id: ServoId
+    opened: float
+    closed: float
+    speed: Positive
+    torque: Annotated[float, Within(gt=0, le=1)]
+    pressing: Annotated[float, Within(gt=0, le=1)]
+    expected: Positive
 
 
 class Servo(Section):
@@ -130,7 +143,9 @@ RANGES: dict[str, dict[str, Any]] = {
         "timeout": Positive,
         "tries": Count,
         "baud": Count,
-        "ids": Annotated[list[Annotated[int, Within(ge=0, le=253)]], Within(min_length=1)],
+        "ids": Annotated[list[ServoId], Within(min_length=1)],
+        "servos": Literal["sts3215", "xl330", "xl430", "xm430"],
+        "jaw": Jaw | None,
         "senses": list[Literal[1, -1]],
         "torque": Annotated[float, Within(gt=0, le=1)],
         "following": Positive,

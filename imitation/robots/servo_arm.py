@@ -13,8 +13,12 @@ from imitation.robot import Body, JointReading
 from imitation.robots.bodies import body_of
 from imitation.robots.keeping_up import KeepingUp
 from imitation.robots.servo_bus import ServoBus
+from imitation.robots.servo_jaw import Jaw
+from imitation.robots.servo_kinds import KINDS
 
 Numbers = Sequence[float]
+
+JAW_ACCELERATION = 10.0  # a jaw weighs nothing [rad/s^2]
 
 
 @dataclass(frozen=True)
@@ -26,12 +30,14 @@ class Driving:
         torque: Largest torque [share of what a servo can].
         following: How far a joint may be from where it was sent [rad].
         overdue: For how long it may be [s].
+        jaw: On the last servo of the bus; None: the arm has none.
     """
 
     senses: tuple[int, ...]
     torque: float
     following: float
     overdue: float
+    jaw: Jaw | None = None
 
 
 class ServoArm:
@@ -54,13 +60,20 @@ class ServoArm:
         clock: Callable[[], float] = time.monotonic,
     ) -> None:
         self.bus, self._driving, self._clock = bus, driving, clock
-        self._senses = np.array(driving.senses, dtype=float)
-        ends = np.sort([self._senses * one for one in bus.limits()], axis=0)
+        self._jaw, self._joints = driving.jaw, len(body.lower)
+        self._senses = np.array((*driving.senses, 1) if self._jaw else driving.senses, dtype=float)
+        lower, upper = np.sort([self._senses * one for one in bus.limits()], axis=0)
         self.body = replace(
-            body, lower=np.maximum(body.lower, ends[0]), upper=np.minimum(body.upper, ends[1])
+            body,
+            lower=np.maximum(body.lower, lower[: self._joints]),
+            upper=np.minimum(body.upper, upper[: self._joints]),
         )
-        self._ready, self._looks = False, 0
-        self._sent = self._sensed = self._posture()
+        # Of all servos: those of the joints, and the jaw's.
+        self._lower = np.append(self.body.lower, lower[self._joints :])
+        self._upper = np.append(self.body.upper, upper[self._joints :])
+        self._ready, self._looks, self._touching = False, 0, False
+        self._grip: float | None = None
+        self._sent = self._sensed = self._angles()
         self._read_at = clock()
         self._keeping_up = KeepingUp(body.joint_names, driving.following, driving.overdue)
 
@@ -68,30 +81,43 @@ class ServoArm:
         """Be ready to move, at rest where the arm is; `Robot` leads it to `posture`."""
         self.bus.refuse_troubled()
         if not self._ready:
-            self.bus.limit(self.body.speed, self.body.acceleration, self._driving.torque)
+            self._limit()
             self._ready = True
         self.go_stiff()
 
     def move(self, velocity: Array, grip: float | None, period: float) -> Array:
         """Move with `velocity` [rad/s] for `period` [s]; returns at once."""
-        target = np.clip(self._sent + velocity * period, self.body.lower, self.body.upper)
+        self._grip = self._grip if grip is None else grip
+        wanted = self._sent.copy()
+        wanted[: self._joints] += velocity * period
+        if self._jaw and self._grip is not None:
+            step = self._jaw.speed * period
+            wanted[-1] += np.clip(self._jaw.angle(self._grip) - wanted[-1], -step, step)
+        target = np.clip(wanted, self._lower, self._upper)
         moved = (target - self._sent) / period
         if moved.any():
             self.bus.turn_to(self._senses * target)
         self._sent = target
-        return np.asarray(moved)
+        return np.asarray(moved[: self._joints])
 
     def read(self) -> JointReading:
-        """Sense the joints and, every other time, the servos' trouble."""
-        now, before = self._clock(), self._sensed
-        self._sensed = self._posture()
+        """Sense the servos and, in turns, their trouble and what the jaw presses with."""
+        now, before, joints = self._clock(), self._sensed, slice(self._joints)
+        self._sensed = self._angles()
         self._looks += 1
         if self._looks % 2:
             self.bus.refuse_troubled()
+        elif self._jaw:
+            self._touching = bool(self.bus.loads()[-1] >= self._jaw.pressing)
         if self._ready:
-            self._keeping_up.check(np.abs(self._sensed - self._sent), now)
+            self._keeping_up.check(np.abs(self._sensed - self._sent)[joints], now)
         elapsed, self._read_at = max(now - self._read_at, 1e-3), now
-        return JointReading(self._sensed, (self._sensed - before) / elapsed)
+        posture, velocity = self._sensed[joints], (self._sensed - before)[joints] / elapsed
+        if self._jaw is None:
+            return JointReading(posture, velocity)
+        opening = self._jaw.opening(self._sensed[-1])
+        proximity = self._jaw.proximity(opening, self._touching)
+        return JointReading(posture, velocity, opening, proximity, self._touching)
 
     def truth(self) -> None:
         """Nobody knows the truth about a real arm."""
@@ -117,12 +143,19 @@ class ServoArm:
             self._ready = False
             self.bus.close()
 
+    def _limit(self) -> None:
+        body, jaw, driving = self.body, self._jaw, self._driving
+        own = ([jaw.speed], [JAW_ACCELERATION], [jaw.torque]) if jaw else ([], [], [])
+        torque = np.full(self._joints, driving.torque)
+        limits = zip((body.speed, body.acceleration, torque), own, strict=True)
+        self.bus.limit(*(np.append(joints, last) for joints, last in limits))
+
     def _hold(self) -> None:
         # The servos may be a little beyond their limits: their goal may not.
-        self._sent = np.clip(self._posture(), self.body.lower, self.body.upper)
+        self._sent, self._grip = np.clip(self._angles(), self._lower, self._upper), None
         self.bus.turn_to(self._senses * self._sent)
 
-    def _posture(self) -> Array:
+    def _angles(self) -> Array:
         return np.asarray(self._senses * self.bus.angles())
 
 
@@ -143,6 +176,8 @@ def servo_arm(
     torque: float,
     following: float,
     overdue: float,
+    servos: str,
+    jaw: Mapping[str, Any] | None,
 ) -> ServoArm:
     """A real arm of bus servos, or an emulated one; its servos are asked, nothing moves.
 
@@ -155,9 +190,11 @@ def servo_arm(
     for key, given in (("ids", ids), ("senses", senses)):
         if len(given) != len(joints):
             raise ValueError(f"robot.arm.{key} needs {len(joints)} numbers, got {list(given)}")
-    bus = ServoBus(address, ids, baud, timeout, tries)
+    own = Jaw(**jaw) if jaw else None
+    all_ids = [*ids, own.id] if own else ids
+    bus = ServoBus(address, KINDS[servos], all_ids, baud, timeout, tries)
     try:
-        return ServoArm(bus, body, Driving(tuple(senses), torque, following, overdue))
+        return ServoArm(bus, body, Driving(tuple(senses), torque, following, overdue, own))
     except Exception:
         bus.close()
         raise

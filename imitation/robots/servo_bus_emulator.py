@@ -1,4 +1,4 @@
-"""Emulated Feetech STS3215 servos on one bus: packets of FF FF ID LENGTH CODE ... CHECKSUM."""
+"""An emulated bus of servos, Feetech or Dynamixel, at the other end of a line."""
 
 import time
 from collections.abc import Callable, Iterator, Sequence
@@ -7,8 +7,30 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from imitation.arrays import Array
+from imitation.robots.emulated_servos import (
+    COOL,
+    HOT,
+    MODEL,
+    OVERLOADED,
+    STATUS,
+    STS3215,
+    TEMPERATURE,
+    TOO_HOT,
+    TURN,
+    EmulatedServo,
+    Make,
+)
 from imitation.robots.faults import Faults
 from imitation.robots.serving import LINE_FAULTS
+from imitation.robots.servo_packets import (
+    EVERYONE,
+    PING,
+    READ,
+    SYNC_READ,
+    SYNC_WRITE,
+    WRITE,
+    Request,
+)
 
 SERVO_FAULTS = {
     "stuck_servo": "servo WHICH does not move",
@@ -17,65 +39,23 @@ SERVO_FAULTS = {
     "overloaded_servo": "servo WHICH is overloaded",
 }
 FAULTS = LINE_FAULTS | SERVO_FAULTS
-HEADER = b"\xff\xff"
-PING, READ, WRITE, SYNC_READ, SYNC_WRITE = 1, 2, 3, 0x82, 0x83
-EVERYONE = 0xFE
-MODEL, STS3215 = 3, 777
-FIRMWARE = (3, 10)
-LOWEST, HIGHEST, HOTTEST, TORQUE_ON, GOAL, SPEED, TORQUE_LIMIT = 9, 11, 13, 40, 42, 46, 48
-POSITION, VELOCITY, VOLTAGE, TEMPERATURE, STATUS = 56, 58, 62, 63, 65
-HOT, OVERLOADED = 4, 32  # bits of the status
-TURN = 4096  # steps
 STEP = 2 * np.pi / TURN  # [rad]
-UNLIMITED = 3073.0  # speed when none is asked for: 45 rpm [steps/s]
-
-
-class EmulatedServo:
-    """One servo: its control table, and where it is."""
-
-    def __init__(self) -> None:
-        self.table = bytearray(128)
-        self.position = TURN / 2  # [steps]
-        self.table[:2] = FIRMWARE
-        for address, value in ((MODEL, STS3215), (LOWEST, 0), (HIGHEST, TURN - 1), (GOAL, 2048)):
-            self.put(address, value)
-        self.put(TORQUE_LIMIT, 1000)
-        self.table[HOTTEST], self.table[TEMPERATURE], self.table[VOLTAGE] = 70, 30, 121
-
-    def put(self, address: int, value: int) -> None:
-        """Set a register of two bytes; a negative one has its sign in the highest bit."""
-        self.table[address : address + 2] = (abs(value) | (0x8000 if value < 0 else 0)).to_bytes(
-            2, "little"
-        )
-
-    def get(self, address: int) -> int:
-        """A register of two bytes."""
-        return int.from_bytes(self.table[address : address + 2], "little")
-
-    def go_on(self, seconds: float, stuck: bool, says_so: bool) -> None:
-        """Move towards the goal for so long, unless `stuck`, and tell it when it `says_so`."""
-        before = self.position
-        if self.table[TORQUE_ON] and not stuck:
-            goal = min(max(self.get(GOAL), self.get(LOWEST)), self.get(HIGHEST))
-            most = (self.get(SPEED) or UNLIMITED) * seconds
-            self.position += min(max(goal - before, -most), most)
-        if says_so:
-            self.put(POSITION, round(self.position))
-        self.put(VELOCITY, round((self.position - before) / seconds) if seconds and says_so else 0)
 
 
 @dataclass
 class ServoBusEmulator:
-    """Servos at the other end of a line.
+    """All servos of an arm; the last one is its jaw's.
 
     Args:
         ids: Of the servos.
+        make: What they are.
         faults: What goes wrong.
         speed: How many times faster than real servos they move.
         clock: Seconds that pass.
     """
 
     ids: Sequence[int] = (1, 2, 3, 4, 5, 6)
+    make: Make = STS3215
     faults: Faults = field(default_factory=Faults)
     speed: float = 1.0
     clock: Callable[[], float] = time.monotonic
@@ -85,7 +65,7 @@ class ServoBusEmulator:
     _now: float = 0.0
 
     def __post_init__(self) -> None:
-        self.servos = {one: EmulatedServo() for one in self.ids}
+        self.servos = {one: EmulatedServo(self.make) for one in self.ids}
 
     def pass_time(self) -> float:
         """Time since the first byte [s]; servos have moved until now."""
@@ -95,8 +75,8 @@ class ServoBusEmulator:
         for number, servo in self.servos.items():
             stuck, mute, hot, over = (self._has(name, number, now) for name in SERVO_FAULTS)
             servo.go_on(now - self._now, stuck, says_so=not mute)
-            servo.table[TEMPERATURE] = 80 if hot else 30
-            servo.table[STATUS] = HOT * hot | OVERLOADED * over
+            servo.put(TEMPERATURE, TOO_HOT if hot else COOL)
+            servo.put(STATUS, HOT * hot | OVERLOADED * over)
         self._now = now
         return now
 
@@ -116,47 +96,51 @@ class ServoBusEmulator:
         """Replies to the packets that are complete by now."""
         if self._began is None:
             self._began = self.clock()
-        self._waiting += data
-        while (start := self._waiting.find(HEADER)) >= 0:
-            packet = self._waiting[start:]
-            if len(packet) < 4 or len(packet) < 4 + packet[3]:
-                return
-            whole, self._waiting = packet[: 4 + packet[3]], packet[4 + packet[3] :]
-            if checksum(whole[2:-1]) == whole[-1]:
-                self.pass_time()
-                yield from self._obey(whole[2], whole[4], whole[5:-1])
+        asked, self._waiting = self.make.packets.requests(self._waiting + data)
+        for request in asked:
+            self.pass_time()
+            yield from self._obey(request)
 
-    def _obey(self, number: int, code: int, rest: bytes) -> Iterator[bytes]:
-        self.sessions += code in (READ, SYNC_READ) and rest[0] == MODEL  # what drivers ask first
-        if code == SYNC_READ:
-            for one in rest[2:]:
+    def _obey(self, asked: Request) -> Iterator[bytes]:
+        width = self.make.packets.width
+        address, rest = _number(asked.rest[:width]), asked.rest[width:]
+        count, each = _number(rest[:width]), rest[width:]
+        model, _ = self.make.cells[MODEL]
+        # Every driver asks first for the model.
+        self.sessions += asked.code in (READ, SYNC_READ) and address == model
+        if asked.code == SYNC_READ:
+            for one in each:
                 if one in self.servos:
-                    yield self._status(one, self._read(one, rest[0], rest[1]))
-        elif code == SYNC_WRITE:
-            size = rest[1] + 1
-            for start in range(2, len(rest), size):
-                self._write(rest[start], rest[0], rest[start + 1 : start + size])
-        elif number in self.servos:
-            if code == WRITE:
-                self._write(number, rest[0], rest[1:])
-            yield self._status(number, self._read(number, *rest[:2]) if code == READ else b"")
+                    yield self._status(one, self._read(one, address, count))
+        elif asked.code == SYNC_WRITE:
+            for start in range(0, len(each), count + 1):
+                if each[start] in self.servos:
+                    self.servos[each[start]].write(address, each[start + 1 : start + count + 1])
+        elif asked.number in self.servos or asked.number == EVERYONE:
+            yield from self._answers(asked, address, count, rest)
+
+    def _answers(self, asked: Request, address: int, count: int, data: bytes) -> Iterator[bytes]:
+        """To a request of one servo; when all are asked, only a ping is answered."""
+        everyone = asked.number == EVERYONE
+        for number in self.ids if everyone else [asked.number]:
+            error = self.servos[number].write(address, data) if asked.code == WRITE else 0
+            told = self._read(number, address, count) if asked.code == READ else b""
+            if asked.code == PING and self.make.packets.width == 2:
+                told = bytes(self.servos[number].table[:2]) + self._read(number, 6, 1)
+            if not everyone or asked.code == PING:
+                yield self._status(number, told, error)
 
     def _read(self, number: int, address: int, count: int) -> bytes:
         return bytes(self.servos[number].table[address : address + count])
 
-    def _write(self, number: int, address: int, data: bytes) -> None:
-        if number in self.servos:
-            self.servos[number].table[address : address + len(data)] = data
-
-    def _status(self, number: int, data: bytes) -> bytes:
-        body = bytes((number, len(data) + 2, self.servos[number].table[STATUS])) + data
-        return HEADER + body + bytes((checksum(body),))
+    def _status(self, number: int, data: bytes, error: int = 0) -> bytes:
+        trouble = self.servos[number].get(STATUS)
+        return self.make.packets.status(number, trouble, error, data)
 
     def _has(self, fault: str, number: int, now: float) -> bool:
         found = self.faults.at(now, fault)
         return found is not None and found.which in (0, number)
 
 
-def checksum(body: bytes) -> int:
-    """What a packet ends with."""
-    return ~sum(body) & 0xFF
+def _number(data: bytes) -> int:
+    return int.from_bytes(data, "little")

@@ -51,11 +51,24 @@ def test_the_servos_of_a_bus_answer_on_a_serial_port(tmp_path):
     assert ended(process) == 130
 
 
+def test_dynamixel_servos_answer_as_their_maker_wrote_it_down(tmp_path):
+    process = started("servo-bus", "--model", "xm430", "--pty", str(tmp_path / "bus"))
+    process.stdout.readline()
+    line = SerialLine(str(tmp_path / "bus"), 57600, 1.0)
+    line.send(bytes.fromhex("fffffd000103000119 4e"))  # ping servo 1
+    assert line.receive(14, 2.0)[:11] == bytes.fromhex("fffffd0001070055 00 fc03")
+    line.send(bytes.fromhex("fffffd0001070002840004001d15"))  # where is it
+    assert line.receive(15, 2.0)[8:13] == bytes.fromhex("0000080000")
+    line.close()
+    assert ended(process) == 130
+
+
 @pytest.mark.parametrize(
     ("words", "told"),
     [
         (["toaster", "--port", "0"], "no device toaster"),
         (["katana", "--model", "500", "--port", "0"], "no model 500"),
+        (["servo-bus", "--model", "400", "--pty", "here"], "no model 400"),
         (["katana"], "either --port"),
         (["katana", "--port", "0", "--pty", "here"], "either --port"),
         (["katana", "--port", "0", "--fault", "fire"], "no fault fire"),

@@ -7,6 +7,11 @@ import sys
 from pathlib import Path
 
 import pytest
+from emulated import served
+from made_up_films import film
+
+from imitation.robots.emulated_servos import MAKES
+from imitation.robots.servo_bus_emulator import ServoBusEmulator
 
 PAGE = Path(__file__).parents[2] / "docs" / "own_arm.md"
 BLOCK = re.compile(r"^`(?P<name>[\w./]+)`:.*?^```\w+\n(?P<text>.*?)^```", re.MULTILINE | re.DOTALL)
@@ -49,6 +54,18 @@ def test_doctor_looks_at_it_too(installed):
     run = imitate(installed, "doctor", "robot=my_arm", "--json")
     assert run.returncode == 0, run.stdout
     assert any("my_arm" in one["told"] for one in json.loads(run.stdout))
+
+
+@pytest.mark.slow
+def test_the_bus_servos_of_the_page_move(installed):
+    servos = ServoBusEmulator(make=MAKES["xl430"])
+    film(installed / "film.mp4", frames=150)
+    bus = ("robot=my_servos", "robot.arm.address=bus", "camera.device=film.mp4")
+    words = ("--config-dir", "mine", *bus, "learning.limit=1", "out=run", "--yes")
+    with served(servos, installed / "bus"):
+        run = imitate(installed, "learn-map", *words)
+    assert run.returncode == 1, run.stderr  # in that film no hand obeys the arm
+    assert servos.posture()[4] == pytest.approx(1.571, abs=0.2)  # as in the guided postures
 
 
 def test_an_arm_that_is_not_installed_is_refused_with_those_that_are(installed):

@@ -7,10 +7,13 @@ from emulated import served
 from on_bench import bench
 
 from imitation.robots.bodies import body_of, ideal_arm
+from imitation.robots.emulated_servos import MAKES
 from imitation.robots.faults import Faults, read_fault
 from imitation.robots.servo_arm import Driving, ServoArm
 from imitation.robots.servo_bus import ServoBus
 from imitation.robots.servo_bus_emulator import FAULTS, ServoBusEmulator
+from imitation.robots.servo_jaw import Jaw
+from imitation.robots.servo_kinds import KINDS
 
 PERIOD = 0.04  # [s]
 TIMEOUT = 0.15  # for a reply: four of them outlast a late one [s]
@@ -43,14 +46,14 @@ class Wired(ServoArm):
     def reset(self, posture) -> None:
         super().reset(posture)
         while np.abs(posture - self.read().posture).max() > 0.01:
-            step = np.clip(posture - self._sent, -0.03, 0.03)
+            step = np.clip(posture - self._sent[:5], -0.03, 0.03)
             self.move(step / PERIOD, None, PERIOD)
 
     def move(self, velocity, grip, period):
         sent = super().move(velocity, grip, period)
-        self._posture()  # the command has no reply: one that has comes after it
+        self._angles()  # the command has no reply: one that has comes after it
         self.servos.clock.now += period
-        self.drawn.reset(self._posture())
+        self.drawn.reset(self._angles()[:5])
         return sent
 
     def truth(self):
@@ -58,15 +61,24 @@ class Wired(ServoArm):
 
 
 @contextmanager
-def wired(folder, *faults: str, servos: ServoBusEmulator | None = None, senses=(1, 1, 1, 1, 1)):
+def wired(
+    folder,
+    *faults: str,
+    servos: ServoBusEmulator | None = None,
+    senses=(1, 1, 1, 1, 1),
+    kind="sts3215",
+    with_jaw=False,
+):
     """An arm on its bus."""
-    servos = servos or ServoBusEmulator()
+    servos = servos or ServoBusEmulator(make=MAKES[kind])
     servos.clock = Clock()
     servos.faults = Faults([read_fault(one, FAULTS) for one in faults])
     node = bench("learn-map", "robot=so101").cfg["robot"]["arm"]
-    driving = Driving(senses, node["torque"], node["following"], node["overdue"])
+    jaw = Jaw(**node["jaw"]) if with_jaw else None
+    driving = Driving(senses, node["torque"], node["following"], node["overdue"], jaw)
     with served(servos, folder / "bus") as where:
-        bus = ServoBus(where, IDS, node["baud"], TIMEOUT, node["tries"])
+        ids = (*IDS, jaw.id) if jaw else IDS
+        bus = ServoBus(where, KINDS[kind], ids, node["baud"], TIMEOUT, node["tries"])
         arm = Wired(servos, node, bus, driving)
         try:
             yield arm
