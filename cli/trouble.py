@@ -14,7 +14,7 @@ from omegaconf.errors import OmegaConfBaseException
 
 from cli.check import missing
 from cli.errors import UserError, nearest, no_such
-from cli.keys import comments, groups_of
+from cli.keys import CONF, comments, groups_of
 
 BRACKETS = "put values that hold brackets or spaces in quotes, such as 'target=[80,60]'"
 
@@ -42,7 +42,8 @@ def as_user_error(command: str, error: Exception) -> Exception:
 
 def _no_such_choice(command: str, error: MissingConfigException) -> str:
     group, _, choice = (error.missing_cfg_file or "").rpartition("/")
-    options = groups_of(command).get(group) or list(error.options or [])
+    ours = {path.stem for path in (CONF / group).glob("*.yaml")}  # some are parts of others
+    options = groups_of(command).get(group, []) + sorted(set(error.options or []) - ours)
     if not options:
         return _first_line(error)
     return f"{group}={choice}: {no_such(group, choice, options)}"

@@ -12,7 +12,7 @@ from rich.console import Console
 
 from cli.build import Config
 from cli.check import checked
-from cli.errors import DONE, NOT_TRUE, say
+from cli.errors import DONE, NOT_TRUE, UserError, say
 from cli.figures import FIGURES
 from cli.folder import writable
 from cli.job import attempt
@@ -31,6 +31,8 @@ def main(cfg: DictConfig) -> int:
 def draw(cfg: Config) -> int:
     """Draw the figure and return the exit code."""
     name, demo = cfg["name"], cfg["demo"]
+    if name not in cfg["figure"]:
+        raise UserError(f"{name} is drawn with its own settings; leave name= and figure= out")
     folder = writable(Path(str(cfg["out"])))
     _, function = FIGURES[name]
     drawing: Any = locate(function)

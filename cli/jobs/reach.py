@@ -64,7 +64,10 @@ def the_map(run: Run) -> LearnedMap:
     bench, field = run.bench, stored.map.field
     present = fingerprint(bench.robot.body, field, bench.learning_space)
     if found := differences(stored.fingerprint, present):
-        raise UserError(f"map={named} is refused: {'; '.join(found)}")
+        raise UserError(
+            f"map={named} is refused: {'; '.join(found)}; type the robot= and camera= that it was "
+            "learned with, or learn another with: imitate learn-map"
+        )
     asked = run.cfg.get("field")
     if asked is not None and asked["name"] != field.name:
         name = asked["name"]

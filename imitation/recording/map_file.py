@@ -99,6 +99,8 @@ def load_map(path: Path) -> LearnedMap:
         raise ValueError(f"no map at {file}; learn one with: imitate learn-map")
     if file.stat().st_size > MAX_BYTES:
         raise ValueError(f"{file} is no map of this program: it is too large")
+    if not zipfile.is_zipfile(file):
+        raise ValueError(f"{file} is no map of this program, or was cut; learn-map writes map.npz")
     try:
         _check_unpacked(file)
         with np.load(file, allow_pickle=False) as stored:

@@ -71,6 +71,7 @@ TYPED = [
     (["reach", "map=nowhere", "field=right"], ["field=right", "right_3x3"]),
     (["figure", "fig33"], ["fig33", "fig3"]),
     (["figure", "fig3a", "figure.fig3a.path=3"], ["figure.fig3a.paths"]),
+    (["figure", "fig3a", "figure=fig1"], ["fig3a", "leave", "figure= out"]),
     (["view", "nowhere"], ["nowhere"]),
 ]
 
@@ -95,6 +96,14 @@ def test_a_yaml_error_names_file_and_line(imitate, tmp_path):
     broken.write_text("name: broken\narm: [1\n")
     result = imitate("learn-map", "robot=broken", "--config-dir", "mine")
     one_line(result, "broken.yaml, line 3", "not valid YAML")
+
+
+def test_the_nearest_choice_may_be_a_users_own(imitate, tmp_path):
+    own = tmp_path / "mine" / "robot" / "gripling.yaml"
+    own.parent.mkdir(parents=True)
+    own.write_text("name: gripling\n")
+    result = imitate("learn-map", "robot=gripln", "--config-dir", "mine")
+    one_line(result, "did you mean gripling?", "katana_sim")
 
 
 def test_a_folder_that_cannot_be_written_is_refused(imitate, tmp_path):
@@ -126,7 +135,7 @@ def test_the_map_of_another_arm_is_refused_with_the_reason(imitate, tmp_path, le
     facts = json.loads(str(arrays["facts"]))
     facts["fingerprint"]["arm"] = "another"
     np.savez(tmp_path / "map.npz", **{**arrays, "facts": np.array(json.dumps(facts))})
-    one_line(imitate("reach", "robot=ideal", "map=map.npz"), "another", "katana_6m180")
+    one_line(imitate("reach", "robot=ideal", "map=map.npz"), "another", "katana_6m180", "robot=")
 
 
 def test_another_field_than_the_maps_is_refused(imitate, learned):
