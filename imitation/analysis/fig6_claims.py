@@ -130,16 +130,16 @@ def _distances(runs: Sequence[Imitations], settings: Mimicking) -> list[Claim]:
                 "px",
             )
         )
-    halves = [
-        numbers("path_rmse_px", "soft", settings.slow)(run).mean()
-        <= numbers("path_rmse_px", "winner", settings.slow)(run).mean() / 2
-        for run in runs
-    ]
-    sentence = (
+    return [*found, *(_halved(runs, at) for at in (settings.slow, settings.quick))]
+
+
+def _halved(runs: Sequence[Imitations], period: float) -> Claim:
+    soft, winner = (numbers("path_rmse_px", one, period) for one in ("soft", "winner"))
+    return every_claim(
         "Soft selection halves the winner's distance, or better, on the same map "
-        f"({settings.slow:g} s, mean RMSE over gestures)."
+        f"({period:g} s, mean RMSE over gestures).",
+        np.array([soft(run).mean() <= winner(run).mean() / 2 for run in runs]),
     )
-    return [*found, every_claim(sentence, np.array(halves))]
 
 
 def _lags(runs: Sequence[Imitations], settings: Mimicking) -> list[Claim]:
