@@ -206,7 +206,7 @@ def twin(
         typer.Option(help="NAME[=WHICH][@START[-END]][xTIMES], in seconds; may be repeated."),
     ] = None,
 ) -> None:
-    """Be a whole robot on this computer, the paper's by default: arm, neck and camera."""
+    """Be a robot on this computer, the paper's by default: arm, neck and camera."""
     from cli.job import attempt
     from cli.twin import Asked, twin
 
