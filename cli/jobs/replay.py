@@ -1,6 +1,7 @@
 """imitate replay: a hand at a learned state lets the robot do the whole action."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -40,6 +41,10 @@ def replay_action(run: Run) -> Outcome:
         say(f"the arm was stopped {recall.where}")
         raise
     told = outcome(metrics.result(), len(action.states))
+    if recall.state is not None:
+        limit = run.cfg["replay"]["limit"]
+        complaint = f"the limit of {limit:g} s came first (replay.limit), stopped {recall.where}"
+        told = replace(told, complaint=complaint)
     if not run.cfg["controls"]:
         return told
     from cli.deferred_controls import Shown, controls, with_controls  # needs this module

@@ -65,6 +65,8 @@ def replay(
             yield from _stopped(robot, perception, sensed, dynamics, recall)
             raise
         seen = sensed
+    if recall.state is not None:
+        yield from _stopped(robot, perception, seen, dynamics, recall)
 
 
 def attended(recall: Recall, enactor: Enactor) -> Mask | None:

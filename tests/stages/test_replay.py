@@ -161,6 +161,15 @@ def test_a_replay_of_which_nobody_knows_the_truth_is_judged_by_the_map(learned, 
     assert told["object_error_m"] is None
 
 
+def test_a_replay_that_takes_too_long_stops_the_arm_and_says_where(learned, action):
+    words = ["map=given", "action=given", IDEAL, "~object", "replay.limit=4"]
+    recall, samples = replaying(Bench({**composed("replay", *words), "seed": 0}), learned, action)
+    *_, last = steps = list(samples)
+    assert [event.kind for step in steps for event in step.events][-1] == "stopped"
+    assert recall.where == "in state 2 of 4, area [2, 2]"
+    assert not last.applied.sent.any()
+
+
 @pytest.fixture(scope="module")
 def katana():
     """A map of the simulated Katana."""
