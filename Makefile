@@ -29,10 +29,10 @@ demo: $(READY) ## learn, reach, mimic, replay, draw all figures with few seeds; 
 	$(RUN)/python -m cli.demo
 
 test: $(READY) ## the tests, under 5 minutes
-	$(RUN)/pytest -n 2 -q
+	$(RUN)/pytest -n 2 --dist worksteal -q
 
 test-full: $(READY) ## the slow tests too
-	$(RUN)/pytest -n 2 -q -m ""
+	$(RUN)/pytest -n 2 --dist worksteal -q -m ""
 
 check: $(READY) ## ruff, mypy, who imports whom
 	$(RUN)/ruff check .

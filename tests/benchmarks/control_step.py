@@ -1,6 +1,8 @@
 """The whole control step of `imitate reach` against the bare loop of the engine."""
 
+from collections import deque
 from collections.abc import Callable, Iterator, Sequence
+from itertools import islice
 from pathlib import Path
 from time import perf_counter
 
@@ -50,18 +52,29 @@ def best(rounds: Sequence[Sequence[float]]) -> float:
 def _rounds(folder: Path, controller: str) -> Iterator[tuple[list[float], ...]]:
     """Time of each step [s]: whole, unrecorded, bare, bare without a table in its picture.
 
-    They are interleaved, so that all have equal luck.
+    They are interleaved, the first two block by block, so that all have equal luck.
     """
     for number in range(ROUNDS):
         runs = [
             Reach(folder / f"{controller}-{number}-{way}", controller, TRIALS, STEPS)
             for way in ("whole", "unrecorded")
         ]
-        whole, unrecorded = runs[0].go(), runs[1].go(recorded=False)
+        whole, unrecorded = runs
+        side_by_side(whole.stepping(recorded=True), unrecorded.stepping(recorded=False))
         bare = bare_step_times(whole, with_table), bare_step_times(whole, as_it_is)
         yield whole.step_times, unrecorded.step_times, *bare
         for run in runs:
             run.bench.robot.close()
+
+
+def side_by_side(one: Iterator[None], other: Iterator[None]) -> None:
+    """Take both to their ends, a block of the one, a block of the other."""
+    for _ in range(STEPS // BLOCK):
+        for steps in (one, other):
+            deque(islice(steps, BLOCK), maxlen=0)
+        one, other = other, one  # neither is always the first
+    for steps in (one, other):
+        deque(steps, maxlen=0)
 
 
 def as_it_is(world: World) -> None:

@@ -5,7 +5,7 @@ import sys
 from collections.abc import Iterator
 from contextlib import ExitStack
 from dataclasses import dataclass
-from itertools import islice, pairwise
+from itertools import islice
 from pathlib import Path
 from time import perf_counter
 
@@ -62,35 +62,39 @@ class Reach:
         self.bench = Bench(self.cfg)
         self.movements: list[Movement] = []
         self.wall_time = 0.0  # of the whole run [s]
-        self._stamps: list[float] = []
+        self._times: list[float] = []  # of each step [s]
 
     def go(self, recorded: bool = True) -> "Reach":
         """Reach, measure, and record if asked to."""
+        start = perf_counter()
+        for _ in self.stepping(recorded):
+            pass
+        self.wall_time = perf_counter() - start
+        return self
+
+    def stepping(self, recorded: bool) -> Iterator[None]:
+        """The same, step by step."""
         robot = self.bench.robot
         samples, metrics = reaching(self.bench, self.stored, trials_of(self.bench, self.stored))
-        start = perf_counter()
         with ExitStack() as open_until_the_end:
             recorder = open_until_the_end.enter_context(self._recorder()) if recorded else None
-            for sample in self._stamped(samples):
+            start = perf_counter()
+            for sample in islice(samples, self.steps):
                 truths = robot.truth()
                 if recorder:
                     recorder.write(sample, truths)
                 metrics.add(sample, truths)
-        self.wall_time = perf_counter() - start
-        return self
+                # Frames are not kept: every page of new memory would cost time no run spends.
+                self.movements.append(_movement(sample))
+                self._times.append(perf_counter() - start)
+                yield
+                start = perf_counter()
 
     @property
     def step_times(self) -> list[float]:
         """Wall time of each step [s]; those that rebuild the world for a new trial left out."""
-        steps = zip(self.movements[1:], pairwise(self._stamps), strict=True)
-        return [end - start for movement, (start, end) in steps if movement.start is None]
-
-    def _stamped(self, samples: Iterator[Sample]) -> Iterator[Sample]:
-        for sample in islice(samples, self.steps):
-            self._stamps.append(perf_counter())
-            # Frames are not kept: every page of new memory would cost time that no run spends.
-            self.movements.append(_movement(sample))
-            yield sample
+        steps = zip(self.movements, self._times, strict=True)
+        return [taken for movement, taken in steps if movement.start is None]
 
     def _recorder(self) -> Recorder:
         settings, robot = self.cfg["recording"], self.bench.robot
