@@ -125,6 +125,7 @@ class Approach(Section):
     share: Annotated[float, Within(gt=0, le=1)]
     tolerance: Positive
     patience: Positive
+    park: bool
 
 
 class Grasp(Section):

@@ -2,7 +2,7 @@
 
 import signal
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from types import FrameType
@@ -18,9 +18,11 @@ class Interruption:
 
     Args:
         sweep: Folder of the sweep whose job this is; None outside a sweep.
+        at_once: Tells when the first signal interrupts too: there is no end of a step to wait for.
     """
 
-    def __init__(self, sweep: Path | None) -> None:
+    def __init__(self, sweep: Path | None, at_once: Callable[[], bool]) -> None:
+        self._at_once = at_once
         self._stop = sweep / STOP if sweep else None
         self._noted, self._look = False, 0.0
         self._before: dict[signal.Signals, Any] = {}
@@ -41,7 +43,7 @@ class Interruption:
             signal.signal(number, handler)
 
     def _note(self, number: int, frame: FrameType | None) -> None:
-        if self._noted:
+        if self._noted or self._at_once():
             raise KeyboardInterrupt
         self._noted = True
 

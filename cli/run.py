@@ -107,7 +107,9 @@ class Run:
         robot, attached = self.bench.robot, dict(self._attachments())
         watchers = [watch] if watch else []
         with ExitStack() as open_until_the_end:
-            interruption = open_until_the_end.enter_context(Interruption(self.sweep))
+            interruption = open_until_the_end.enter_context(
+                Interruption(self.sweep, at_once=lambda: robot.leading)
+            )
             recorder = open_until_the_end.enter_context(self._recorder(visual_field, attached))
             if self.cfg["recording"]["live"]:
                 from imitation.recording.rerun_view import LiveView  # takes a second
@@ -125,6 +127,7 @@ class Run:
                         one(sample, truths)
                     report.step(sample)
                     self._note(sample)
+                robot.park(self.bench.rest)
             except DeviceError as error:
                 robot.close()  # at once: the arm freezes
                 if sample:

@@ -1,4 +1,4 @@
-"""Leads a real arm to where an episode begins, slowly and within the guard."""
+"""Leads a real arm to a posture, slowly and within the guard: to begin an episode, or to park."""
 
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
@@ -23,15 +23,27 @@ class Approach:
         share: Of the joints' largest speed, at most.
         tolerance: The arm is there when every joint is nearer than this [rad].
         patience: An arm that has got no nearer for so long is stuck [s].
+        park: Whether it is led to where it rests at the end of a run too.
     """
 
     share: float
     tolerance: float
     patience: float
+    park: bool
 
 
-def lead(arm: "Arm", guard: Guard, target: Array, period_ns: int, how: Approach) -> None:
+def lead(
+    arm: "Arm", guard: Guard, target: Array, before: Array, period_ns: int, how: Approach
+) -> None:
     """Lead `arm` to rest at `target` [rad].
+
+    Args:
+        arm: What is led.
+        guard: Every step goes through it.
+        target: (n_joints,) [rad].
+        before: Velocity of the last period, (n_joints,) [rad/s].
+        period_ns: Control period [ns].
+        how: How fast, and for how long it may stand still.
 
     Raises:
         DeviceError: The guard does not let it get there, or the arm does not move.
@@ -39,7 +51,7 @@ def lead(arm: "Arm", guard: Guard, target: Array, period_ns: int, how: Approach)
     clock, period = WallClock(period_ns), period_ns / SECOND
     clock.begin()
     # Planned ahead of what is sensed: a real arm senses itself late.
-    planned, before = arm.read().posture, np.zeros(len(target))
+    planned = arm.read().posture
     best, waited = np.inf, 0.0
     while True:
         away = float(np.abs(target - arm.read().posture).max())
@@ -48,7 +60,7 @@ def lead(arm: "Arm", guard: Guard, target: Array, period_ns: int, how: Approach)
         best, waited = (away, 0.0) if away < best - how.tolerance / 10 else (best, waited + period)
         if waited > how.patience:
             raise DeviceError(
-                f"the arm gets no nearer than {away:.2f} rad to its start posture: lead it there "
+                f"the arm gets no nearer than {away:.2f} rad to where it is led: take it there "
                 "by hand, or put away what is in its way"
             )
         to_go = target - planned

@@ -173,7 +173,7 @@ class Robot:
     ) -> None:
         self.arm, self.camera, self.guard, self.home = arm, camera, guard, home
         self.period_ns, self.live = period_ns, arm.live or camera.live
-        self._approach = approach
+        self._approach, self.leading = approach, False  # it moves, but no step is under way
         self._clock: Clock = (WallClock if self.live else SimulatedClock)(period_ns)
         self._time_ns = 0
         self._velocity, self._posture = np.zeros(len(home)), home  # as sensed last
@@ -202,9 +202,9 @@ class Robot:
         """
         start = self.home if posture is None else posture
         self.arm.reset(self.guard.posture_within_limits(start))
-        if self._approach:
-            lead(self.arm, self.guard, start, self.period_ns, self._approach)
         self._velocity = np.zeros(len(self.home))
+        if self._approach:
+            self._lead_to(start, self._approach)
         self._time_ns = self._clock.begin()
         self.camera.reset(self._time_ns)
         return self._sense(None, begins=True)
@@ -242,10 +242,23 @@ class Robot:
         told, self._truths = self._truths, []
         return told
 
+    def park(self, posture: Array) -> None:
+        """Be at rest at `posture` [rad], if it is a real arm that parks; else where it is."""
+        if self._approach and self._approach.park:
+            self._lead_to(posture, self._approach)
+
     def close(self) -> None:
         """Stop the arm and release the devices; harmless when repeated."""
         self.arm.close()
         self.camera.close()
+
+    def _lead_to(self, posture: Array, how: Approach) -> None:
+        self.leading = True
+        try:
+            lead(self.arm, self.guard, posture, self._velocity, self.period_ns, how)
+        finally:
+            self.leading = False
+        self._velocity = np.zeros(len(self.home))
 
     def _sense(self, gaze: Array | None, begins: bool = False) -> Observation:
         reading = self.arm.read()

@@ -2,13 +2,17 @@
 
 import json
 import re
+import signal
 import subprocess
 import sys
+import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
+import numpy as np
 import pytest
+from omegaconf import OmegaConf
 
 from imitation.recording.mcap_recording import Recording
 
@@ -125,17 +129,23 @@ def test_a_hand_before_the_twin_is_mimicked_and_its_action_learned_and_replayed(
     [
         ("crashed_motor=2@14", "motor 2 has collided|collision"),
         ("stuck_motor=1@14", "motor 1 .* does not move"),
+        ("stuck_encoder=1@14", "motor 1 .* does not move"),
+        ("stuck_servo=1@9", "shoulder_pan .* does not move"),
+        ("hot_servo=2@9", "servo 2 .* temperature"),
+        ("overloaded_servo=3@9", "servo 3 .* overload"),
+        ("silence@9", "the servos .* do not answer"),
         ("silence@14", "in vain|no reply"),
         ("wrong_crc@14", "wrong CRC"),
         ("cut@14", "is cut"),
         ("error_flag@14", "refuses"),
         ("neck_silence@12", "neck .* is silent"),
         ("neck_reset@12", "started anew"),
-        ("camera_gone@16", "delivered no frame"),
+        ("camera_gone@20", "delivered no frame"),
     ],
 )
 def test_a_device_that_fails_ends_the_run_with_a_readable_recording(fault, told, tmp_path):
-    with twin(tmp_path, "--fault", fault) as there:
+    kind = "so101" if "servo" in fault or "the servos" in told else "400"
+    with twin(tmp_path, *TWINS[kind], "--fault", fault) as there:
         run = imitate(tmp_path, "learn-map", *there, *SWIFT, "learning.limit=25", "out=run")
     assert run.returncode == 3, run.stderr
     last = run.stderr.strip().splitlines()[-1]
@@ -148,7 +158,7 @@ def test_a_device_that_fails_ends_the_run_with_a_readable_recording(fault, told,
 @pytest.mark.timeout(600)
 @pytest.mark.parametrize(
     ("fault", "why"),
-    [("camera_gone@16-17", "stale vision"), ("camera_frozen@16-20", "frozen vision")],
+    [("camera_gone@20-21", "stale vision"), ("camera_frozen@20-24", "frozen vision")],
 )
 def test_while_the_camera_fails_the_arm_rests_and_then_goes_on(fault, why, tmp_path):
     with twin(tmp_path, "--fault", fault) as there:
@@ -160,21 +170,66 @@ def test_while_the_camera_fails_the_arm_rests_and_then_goes_on(fault, why, tmp_p
     assert any(why not in text for text in told[first + 1 :])
 
 
+def ended_by(folder: Path, number: int, words: list[str], once: str) -> tuple[int, float]:
+    """Exit code of a run that is sent a signal once it says something, and how long it took [s]."""
+    call = [*PROGRAM, "learn-map", *words, "out=run"]
+    with subprocess.Popen(call, stderr=subprocess.PIPE, text=True, cwd=folder) as process:
+        for line in process.stderr:
+            if once in line:
+                break
+        time.sleep(1.0)
+        process.send_signal(number)
+        began = time.monotonic()
+        process.communicate(timeout=30)
+        return process.returncode, time.monotonic() - began
+
+
+def joints(folder: Path, there: list[str]) -> dict[str, str]:
+    """What the doctor tells of the devices, when the arm is at rest."""
+    first, second = (imitate(folder, "doctor", *there, "--json").stdout for _ in range(2))
+    told = [{one["subject"]: one["told"] for one in json.loads(text)} for text in (first, second)]
+    assert told[0]["joints"] == told[1]["joints"]
+    return told[1]
+
+
 @pytest.mark.slow
 @pytest.mark.timeout(600)
-def test_a_run_that_is_ended_freezes_the_arm_and_leaves_its_recording(tmp_path):
-    with twin(tmp_path) as there:
-        call = [*PROGRAM, "learn-map", *there, *SWIFT, "out=run"]
-        with subprocess.Popen(call, stderr=subprocess.PIPE, text=True, cwd=tmp_path) as process:
-            for line in process.stderr:
-                if "s of robot time" in line:
-                    break
-            process.terminate()
-            process.communicate(timeout=20)
-        assert process.returncode == 130
-        doctor = json.loads(imitate(tmp_path, "doctor", *there, "--json").stdout)
-    told = {one["subject"]: one for one in doctor}
-    assert told["motors"]["told"].startswith("status 8 8 8 8 8 8")
-    assert told["camera"]["verdict"] == told["neck"]["verdict"] == "pass"
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+@pytest.mark.parametrize("kind", ["400", "so101"])
+def test_a_run_that_is_ended_freezes_the_arm_and_leaves_its_recording(kind, number, tmp_path):
+    with twin(tmp_path, *TWINS[kind]) as there:
+        code, _ = ended_by(tmp_path, number, [*there, *SWIFT], "s of robot time")
+        assert code == 130
+        told = joints(tmp_path, there)
+    if kind == "400":
+        assert told["motors"].startswith("status 8 8 8 8 8 8")
+    else:
+        assert "torque on" in told["servos"]
     assert json.loads((tmp_path / "run" / "metrics.json").read_text())["status"] == "interrupted"
-    Recording.open(tmp_path / "run" / "run.mcap")
+    assert events(tmp_path / "run")
+
+
+@pytest.mark.slow
+@pytest.mark.timeout(600)
+@pytest.mark.parametrize("kind", ["400", "so101"])
+def test_an_arm_on_its_way_to_the_start_is_stopped_at_once(kind, tmp_path):
+    slowly = ("robot.approach.share=0.05", "--yes")
+    with twin(tmp_path, *TWINS[kind]) as there:
+        code, took = ended_by(tmp_path, signal.SIGINT, [*there, *slowly], "about to move")
+        assert code == 130
+        assert took < 5.0
+        joints(tmp_path, there)
+
+
+@pytest.mark.slow
+@pytest.mark.timeout(600)
+@pytest.mark.parametrize("kind", ["400", "so101"])
+def test_an_arm_parks_when_it_is_asked_to(kind, tmp_path):
+    words = ("robot.approach.park=true", "learning.limit=2")
+    with twin(tmp_path, *TWINS[kind]) as there:
+        run = imitate(tmp_path, "learn-map", *there, *SWIFT, *words, "out=run")
+        assert run.returncode == 1, run.stderr  # so little time is not enough for all areas
+        told = joints(tmp_path, there)["joints"]
+    angles = [float(one) for one in re.findall(r"(-?\d+)° \(", told)]
+    rest = OmegaConf.load(tmp_path / "run" / "config.yaml").robot.rest
+    assert angles == pytest.approx(np.degrees(rest), abs=3.0)

@@ -27,7 +27,7 @@ STEPS = {
 # In an engine the arm is a little elsewhere than its commands should have led it [rad]; the weak
 # motors of an SO-101 may leave it further behind, and it is stopped at a limit all the same.
 IN_AN_ENGINE, ELSEWHERE = 1.1, 0.005
-HARDEST = {"ideal": EARLIER, "so101_sim": AT_ONCE}
+HARDEST = {"ideal": EARLIER, "so101_sim": AT_ONCE, "kuka_sim": AT_ONCE}
 
 
 class Witness:

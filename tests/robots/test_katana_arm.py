@@ -102,6 +102,7 @@ def test_an_arm_that_was_only_looked_at_is_left_as_it_is(model, tmp_path):
     [
         ("crashed_motor=2@1", "motor 2"),
         ("stuck_motor=3@1", "motor 3 .* does not move"),
+        ("stuck_encoder=3@1", "motor 3 .* does not move"),
         ("silence@1", "in vain|no reply"),
         ("wrong_crc@1", "wrong CRC"),
         ("cut@1", "cut|failed"),

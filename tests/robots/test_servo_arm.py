@@ -89,6 +89,7 @@ def test_a_bus_that_recovers_is_asked_again(tmp_path, fault, kind):
         ("silence@1", "do not answer"),
         ("cut@1", "do not answer"),
         ("stuck_servo=1@0", "shoulder_pan is .* from where it was sent"),
+        ("stuck_encoder=1@0", "shoulder_pan is .* from where it was sent"),
         ("hot_servo=3@1", "servo 3 .* temperature"),
         ("overloaded_servo=5@1", "servo 5 .* overload"),
     ],
