@@ -77,6 +77,22 @@ def test_a_hand_elsewhere_triggers_nothing_and_the_arm_rests(learned, action, pl
     assert told.fastest == 0.0
 
 
+@pytest.mark.parametrize("shown", ["demonstrator.at=0", "demonstrator=pick_and_place"])
+def test_left_of_the_reach_a_hand_that_is_there_from_the_start_triggers(learned, action, shown):
+    metrics, told = imitate(learned, action, shown)
+    assert metrics["triggered_by_state"] == 0
+    assert told.times_of("trigger") == [pytest.approx(0.4, abs=0.05)]
+    assert metrics["order_correct"]
+
+
+def test_a_hand_that_only_passes_through_the_states_triggers_nothing(learned, action):
+    y = action.states[0].place[1]
+    shown = f"[[1,-60,{y}],[6,220,{y}]]"  # from beyond one edge of the image to beyond the other
+    words = ["demonstrator=waypoints", f"demonstrator.waypoints={shown}", "replay.patience=6"]
+    metrics, _ = imitate(learned, action, *words)
+    assert metrics["triggered_at_s"] is None
+
+
 def test_an_arm_that_rests_in_view_in_a_learned_state_triggers_nothing(learned, action):
     words = [IN_VIEW, "demonstrator=none", "replay.patience=4"]
     metrics, told = imitate(learned, action, *words)
