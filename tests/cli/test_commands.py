@@ -128,16 +128,18 @@ def test_an_experiment_composes_for_a_command_at_least(name):
     assert composed
 
 
-CHOICES = [
-    (command, group, choice)
-    for command in sorted(set(COMMANDS) - {"figure"})
-    for group, choices in groups_of(command).items()
-    for choice in choices
-    if group != "experiment"  # not each fits each command
-]
+def choices_of_commands():
+    """All of them; of those that several commands take, all but the first are slow."""
+    known = set()
+    for command in sorted(set(COMMANDS) - {"figure"}):
+        for group, choices in groups_of(command).items():
+            for choice in choices if group != "experiment" else ():  # not each fits each command
+                marks = [pytest.mark.slow] if (group, choice) in known else []
+                known.add((group, choice))
+                yield pytest.param(command, group, choice, marks=marks)
 
 
-@pytest.mark.parametrize(("command", "group", "choice"), CHOICES)
+@pytest.mark.parametrize(("command", "group", "choice"), choices_of_commands())
 def test_every_choice_composes_and_passes_the_check(command, group, choice):
     from hydra import compose, initialize_config_module
 
@@ -152,8 +154,9 @@ def test_every_choice_composes_and_passes_the_check(command, group, choice):
 def test_every_number_of_a_command_says_what_it_is(path):
     if path.stem == "common":
         return
+    numbers = OmegaConf.load(path)
     for key, told in comments(path.stem).items():
-        value = OmegaConf.select(OmegaConf.load(path), key, throw_on_resolution_failure=False)
+        value = OmegaConf.select(numbers, key, throw_on_resolution_failure=False)
         if isinstance(value, int | float):
             assert told, f"{key} has no comment"
 
