@@ -119,6 +119,7 @@ RANGES: dict[str, dict[str, Any]] = {
         "delay_frames": Whole,
         "path": Place,
         "device": Place,
+        "latency": Share,
         "start": NotNegative,
         "end": Positive | None,
         **get_type_hints(Watching, include_extras=True),

@@ -32,6 +32,7 @@ class FrameWatch:
         device: A number, a device, a URL, or a film, which is shown at its own speed, once.
         develop: Makes JPEGs of its pictures.
         patience: Longest that opening and reading may take [s].
+        latency: How long after its capture a frame comes [s].
 
     Raises:
         DeviceError: The device cannot be opened.
@@ -39,8 +40,11 @@ class FrameWatch:
 
     ended = False  # a film is over
 
-    def __init__(self, device: str | int, develop: Development, patience: float) -> None:
+    def __init__(
+        self, device: str | int, develop: Development, patience: float, latency: float
+    ) -> None:
         self._device, self._develop = device, develop
+        self._latency_ns = round(latency * SECOND)
         self._patience_ms = round(1000 * patience)
         self._came, self._taken = threading.Condition(), list[Taken]()
         self._newest: Taken | None = None
@@ -108,7 +112,7 @@ class FrameWatch:
         self.ended = True
 
     def _keep(self, picture: Image) -> None:
-        now = time.monotonic_ns()
+        now = time.monotonic_ns() - self._latency_ns
         jpeg, before = self._develop.jpeg(picture), self._newest
         same = before is not None and before.jpeg == jpeg
         with self._came:

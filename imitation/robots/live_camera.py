@@ -23,6 +23,7 @@ class LiveCamera:
         reference: The reference gaze, which its frames are taken to be seen with [rad].
         eye: Optical centre, (3,) [m].
         device: A number, a device, a URL or a film.
+        latency: How long after its capture a frame comes [s].
         stale: A newest frame older than this is trouble [s].
         frozen: So are frames that have been equal for longer than this [s]; None: never.
         dark: So is one whose mean brightness is below this [0..255].
@@ -43,6 +44,7 @@ class LiveCamera:
         reference: tuple[float, float],
         eye: Sequence[float],
         device: str | int,
+        latency: float,
         stale: float,
         frozen: float | None,
         dark: float,
@@ -55,7 +57,7 @@ class LiveCamera:
         self._develop = Development(space.size, reference, aspect, mirror, quality)
         self._fit, self._lost = VisionWatch(stale, frozen, dark, lost), lost
         self._start_ns = 0  # when the run began, on the wall's clock
-        self._watch = FrameWatch(device, self._develop, lost)
+        self._watch = FrameWatch(device, self._develop, lost, latency)
 
     def reset(self, time_ns: int) -> None:
         """Wait for a frame of the episode that begins.

@@ -9,6 +9,7 @@ import numpy as np
 
 from imitation.arrays import Array
 from imitation.device import DeviceError
+from imitation.grasp import OPEN
 from imitation.robot import Body, JointReading
 from imitation.robots.bodies import body_of
 from imitation.robots.keeping_up import KeepingUp
@@ -78,12 +79,13 @@ class ServoArm:
         self._keeping_up = KeepingUp(body.joint_names, driving.following, driving.overdue)
 
     def reset(self, posture: Array) -> None:
-        """Be ready to move, at rest where the arm is; `Robot` leads it to `posture`."""
+        """Be ready to move, at rest where the arm is; `Robot` leads it to `posture`, jaw open."""
         self.bus.refuse_troubled()
         if not self._ready:
             self._limit()
             self._ready = True
         self.go_stiff()
+        self._grip = OPEN if self._jaw else None
 
     def move(self, velocity: Array, grip: float | None, period: float) -> Array:
         """Move with `velocity` [rad/s] for `period` [s]; returns at once."""

@@ -8,13 +8,17 @@ import sys
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
+from inspect import signature
 from pathlib import Path
 
 import numpy as np
 import pytest
 from omegaconf import OmegaConf
 
+from cli.build import Bench
+from cli.experiments import composed
 from imitation.recording.mcap_recording import Recording
+from imitation.robots.bodies import ideal_arm
 
 PROGRAM = [sys.executable, "-c", "from cli.main import main; main()"]
 STEADY = ("robot.approach.share=1", "--yes")
@@ -55,6 +59,30 @@ def events(folder: Path) -> dict[str, str]:
     return {message.name: message.msg for _, message in recording.messages("/events")}
 
 
+def largest_true_distance(folder: Path, robot: str) -> float:
+    """Of the mark from the target over all holds of a reach run [px].
+
+    A twin's arm stands where its emulated joints say.
+    """
+    cfg = composed("learn-map", f"robot={robot}")
+    node, space = cfg["robot"]["arm"], Bench(cfg).learning_space
+    arm = ideal_arm(**{key: node[key] for key in signature(ideal_arm).parameters})
+    recording = Recording.open(folder / "run.mcap")
+    target, since, held = np.zeros(2), 0, list[tuple[np.ndarray, int, int]]()
+    for time_ns, event in recording.messages("/events"):
+        if event.name == "episode":
+            target = np.array(json.loads(event.msg[event.msg.index("{") :])["target_px"])
+        since = time_ns if event.name == "settled" else since
+        held += [(target, since, time_ns)] if event.name == "held" else []
+    away = [0.0]
+    for time_ns, joints in recording.messages("/joint_states"):
+        for target in (one for one, first, last in held if first <= time_ns <= last):
+            arm.reset(np.array(joints.position))
+            seen = space.project(arm.truth()[0], np.array(cfg["camera"]["eye"]))
+            away.append(float(np.linalg.norm(seen - target)))
+    return max(away)
+
+
 def grips(folder: Path) -> list[dict]:
     """What the hand did in a replay."""
     messages = Recording.open(folder / "run.mcap").messages("/events")
@@ -93,27 +121,31 @@ def test_a_map_learned_through_the_wire_reaches(kind, tmp_path):
     assert reached.returncode == 0, reached.stderr
     metrics = json.loads((tmp_path / "reach" / "metrics.json").read_text())
     assert all(trial["final_distance_px"] < 3 for trial in metrics["trials"])
+    simulated, near = ("so101_sim", 4) if kind == "so101" else ("katana_sim", 3)
+    assert 0 < largest_true_distance(tmp_path / "reach", simulated) < near
     assert metrics["late_ticks"] < 0.05 * metrics["steps"]
 
 
 @pytest.mark.slow
 @pytest.mark.timeout(600)
-def test_a_hand_before_the_twin_is_mimicked_and_its_action_learned_and_replayed(tmp_path):
-    with twin(tmp_path) as there:
+@pytest.mark.parametrize("kind", ["400", "so101"])
+def test_a_hand_before_the_twin_is_mimicked_and_its_action_learned_and_replayed(kind, tmp_path):
+    kinds, alone = TWINS[kind], ("object=null",) if kind == "so101" else ()
+    with twin(tmp_path, *kinds) as there:
         imitate(tmp_path, "learn-map", *there, *SWIFT, "out=map")
-    with twin(tmp_path, "--watching", "mimic", "demonstrator=circle") as there:
+    with twin(tmp_path, *kinds, "--watching", "mimic", "demonstrator=circle") as there:
         words = ("map=map", "duration=30", "out=mimic")
         run = imitate(tmp_path, "mimic", *words, *there, *SWIFT)
         assert run.returncode == 0, run.stderr
     metrics = json.loads((tmp_path / "mimic" / "metrics.json").read_text())
     assert metrics["follow_rate"] > 0.6
-    with twin(tmp_path, "demonstrator=pick_and_place") as there:
-        run = imitate(tmp_path, "demo-record", *there, *SWIFT, "out=action")
+    with twin(tmp_path, *kinds, "demonstrator=pick_and_place", *alone) as there:
+        run = imitate(tmp_path, "demo-record", *there, *SWIFT, *alone, "out=action")
         assert run.returncode == 0, run.stderr
     metrics = json.loads((tmp_path / "action" / "metrics.json").read_text())
     assert metrics["states"] >= 3
-    with twin(tmp_path, "--watching", "replay", "demonstrator=trigger") as there:
-        words = ("map=map", "action=action", "out=replay")
+    with twin(tmp_path, *kinds, "--watching", "replay", "demonstrator=trigger", *alone) as there:
+        words = ("map=map", "action=action", "out=replay", *alone)
         run = imitate(tmp_path, "replay", *words, *there, *SWIFT)
         assert run.returncode == 0, run.stderr
     metrics = json.loads((tmp_path / "replay" / "metrics.json").read_text())

@@ -58,6 +58,13 @@ def test_the_clock_is_the_wall_s_and_frames_are_fresh(stream):
     assert np.median([one.time_ns - one.frame_time_ns for one in seen]) < 200_000_000
 
 
+def test_a_frame_s_time_is_that_of_its_capture_when_its_latency_is_known(stream):
+    with watching(stream.url, "camera.latency=0.1", "camera.stale=0.3") as robot:
+        seen = [robot.reset(), *(one for one, _ in steps(robot, 25))]
+    ages = [one.time_ns - one.frame_time_ns for one in seen]
+    assert 100_000_000 <= np.median(ages) < 300_000_000
+
+
 def test_every_frame_is_kept_with_its_own_time(stream):
     with watching(stream.url) as robot:
         seen = [robot.reset(), *(one for one, _ in steps(robot, 50))]

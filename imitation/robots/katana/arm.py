@@ -7,6 +7,7 @@ import numpy as np
 
 from imitation.arrays import Array
 from imitation.device import DeviceError
+from imitation.grasp import OPEN
 from imitation.robot import Body, JointReading
 from imitation.robots.katana.commands import TICK, Flag, as_segments
 from imitation.robots.katana.driver import Katana, refuse_crashed
@@ -56,12 +57,12 @@ class KatanaArm:
         self._nearby = (float("inf"), False)  # what the gripper sensed last
 
     def reset(self, posture: Array) -> None:
-        """Be ready to move, at rest where the arm is; `Robot` leads it to `posture`."""
+        """Be ready to move, at rest where the arm is; `Robot` leads it to `posture`, hand open."""
         if not self._ready:
             make_ready(self.katana, self.body, self._settings)
             self._ready = True
         self._sent = self.katana.positions().astype(float)
-        self._ahead = np.round(self._sent)
+        self._ahead, self._grip = np.round(self._sent), OPEN
 
     def move(self, velocity: Array, grip: float | None, period: float) -> Array:
         """Move with `velocity` [rad/s] for `period` [s]; returns at once."""
