@@ -50,8 +50,7 @@ fig1 fig2 fig4 fig5 fig6 fig7: $(READY) ## a figure of the paper with its claims
 	$(RUN)/imitate figure $@
 
 fig3: $(READY) ## both panels of Fig. 3
-	$(RUN)/imitate figure fig3a
-	$(RUN)/imitate figure fig3b
+	@failed=0; for name in fig3a fig3b; do $(RUN)/imitate figure $$name || failed=1; done; exit $$failed
 
 figures: $(READY) ## all figures; exit code 1 when a claim fails
 	@failed=0; for name in fig1 fig2 fig3a fig3b fig4 fig5 fig6 fig7; do \
