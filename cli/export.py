@@ -1,6 +1,7 @@
 """imitate export: recordings as tables, as a film or as a LeRobot dataset."""
 
 import os
+import re
 import shutil
 from collections.abc import Callable, Sequence
 from pathlib import Path
@@ -44,14 +45,27 @@ def export(paths: Sequence[Path], kind: str) -> int:
 def write_whole(out: Path, write: Callable[[Path], None]) -> None:
     """Have `out` written beside itself, and put in its place when all of it is there."""
     out.absolute().parent.mkdir(parents=True, exist_ok=True)
+    _clear_what_was_killed(out)
     unfinished = out.with_name(f".{out.stem}-{os.getpid()}{out.suffix}")
     try:
         write(unfinished)
         unfinished.rename(out)
     finally:
-        if unfinished.is_dir():
-            shutil.rmtree(unfinished)
-        unfinished.unlink(missing_ok=True)
+        _remove(unfinished)
+
+
+def _clear_what_was_killed(out: Path) -> None:
+    """Remove what exports to `out` left when they were killed."""
+    for left in out.absolute().parent.iterdir():
+        found = re.fullmatch(rf"\.{re.escape(out.stem)}-(\d+){re.escape(out.suffix)}", left.name)
+        if found and not Path("/proc", found[1]).exists():
+            _remove(left)
+
+
+def _remove(path: Path) -> None:
+    if path.is_dir():
+        shutil.rmtree(path)
+    path.unlink(missing_ok=True)
 
 
 def _csv(out: Path, recordings: Sequence[Recording]) -> None:

@@ -31,7 +31,8 @@ def inspect(run: Path, as_json: bool) -> int:
     try:
         told |= of_ours(Recording.open(run))
     except ValueError:  # of another program: its topics are all that can be told
-        told["next"] = [f"rerun {shlex.quote(str(run))}"]
+        bags = sorted(run.glob("*.mcap")) if run.is_dir() else [run]
+        told["next"] = [f"rerun {shlex.quote(str(one))}" for one in bags if one.suffix == ".mcap"]
     told["topics"] = [
         {
             "topic": name,

@@ -27,6 +27,8 @@ Work = Callable[[Run], Outcome]
 
 # Why a file cannot be written, when it is the disk's fault.
 DISK = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EROFS, errno.EIO)
+# The same, and why one cannot be read, when the place that was named is none.
+PLACE = (errno.EACCES, errno.EPERM, errno.ENOTDIR, errno.EISDIR, errno.ENAMETOOLONG, errno.ELOOP)
 
 codes: list[int] = []  # exit codes of the jobs that ran in this process
 
@@ -67,6 +69,9 @@ def explain(error: Exception) -> int:
     if isinstance(error, OSError) and error.errno in DISK:
         _say(f"{error.filename or 'the disk'} cannot be written: {error.strerror}")
         return DEVICE
+    if isinstance(error, OSError) and error.errno in PLACE:
+        _say(f"{str(error.filename)[:200]}: {error.strerror}")
+        return BAD_INPUT
     traceback.print_exception(error)  # a bug of this program, nothing a user could mend
     return NOT_TRUE
 

@@ -68,6 +68,8 @@ class Overview:
     duration_ns: int | None  # None: it still goes on
     dynamics: tuple[bool, bool, bool]  # whether gain, noise level and distance are ever told
     activation: bool  # whether an attractor of the map ever took part
+    drawn: bool  # whether any attractor ever did
+    moved: bool  # whether the arm was ever sent a movement
     events: bool  # whether anything happened
     guard: bool  # whether the guard ever limited a command
 
@@ -81,8 +83,9 @@ class Overview:
     def curves(self) -> set[str]:
         """The curves that have a line."""
         gain, noise, distance = self.dynamics
-        told = {"dynamics": gain or noise, "distance": distance, "places": not distance}
-        return {"joints", "velocity"} | {curve for curve, there in told.items() if there}
+        told = {"distance": distance, "places": not distance, "velocity": self.moved}
+        told["dynamics"] = self.moved and (gain or noise)
+        return {"joints"} | {curve for curve, there in told.items() if there}
 
     @classmethod
     def of(cls, recording: Recording) -> "Overview":
@@ -94,6 +97,7 @@ class Overview:
         last: int | None = None
         frame: Any = None
         dynamics, activation, kinds = np.zeros(3, dtype=bool), False, set()
+        drawn = moved = False
         for message in itertools.chain.from_iterable(recording.chunks()):
             if message.topic == "/dynamics":
                 last = message.time_ns
@@ -103,7 +107,10 @@ class Overview:
                 frame = messages.decoded(message.data, recording.topics[message.topic].type)
             elif message.topic == "/attractors/index" and not activation:
                 index = messages.decoded(message.data, messages.INTEGERS)
-                activation = bool((index.data >= 0).any())
+                activation, drawn = bool((index.data >= 0).any()), drawn or index.data.size > 0
+            elif message.topic == "/joint_command/sent" and not moved:
+                sent = messages.decoded(message.data, messages.JOINT_STATE)
+                moved = bool(np.any(sent.velocity))
             elif message.topic == "/events":
                 kinds.add(messages.decoded(message.data, messages.LOG).name)
         if last is None:
@@ -119,6 +126,8 @@ class Overview:
             duration_ns=last,
             dynamics=(gain, noise, distance),
             activation=activation,
+            drawn=drawn,
+            moved=moved,
             events=bool(kinds - {"limited"}),
             guard="limited" in kinds,
         )
@@ -138,6 +147,8 @@ class Overview:
             duration_ns=None,
             dynamics=(True, True, True),
             activation=True,
+            drawn=True,
+            moved=True,
             events=True,
             guard=True,
         )

@@ -174,3 +174,10 @@ def test_no_red_thing_in_view_is_said(imitate):
     result = imitate("learn-map", "robot=ideal", "vision.hue=[80,100]", "learning.patience=2")
     assert result.exit_code == 1
     assert "the hand was never seen" in result.stderr
+
+
+@pytest.mark.parametrize("name", ["x" * 5000, "file/run", "./" * 3000])
+@pytest.mark.parametrize("command", ["inspect", "verify", "recover", "view"])
+def test_a_place_that_cannot_be_is_said_in_one_line(imitate, tmp_path, command, name):
+    (tmp_path / "file").write_text("")
+    one_line(imitate(command, name))

@@ -10,6 +10,8 @@ from typer.testing import CliRunner
 from cli.main import app
 from imitation.recording.action_file import load_action
 from imitation.recording.mcap_recording import Recording
+from imitation.recording.overview import Overview
+from imitation.recording.rerun_view.panels import fields
 
 
 @pytest.fixture(scope="module")
@@ -88,3 +90,9 @@ def test_the_same_seed_gives_the_same_bytes(imitate):
         imitate("demo-record", "robot=ideal", "demo.duration=3", f"out={out}")
     one, two = (imitate.folder / out / "run.mcap" for out in ("one", "two"))
     assert one.read_bytes() == two.read_bytes()
+
+
+def test_the_view_of_a_robot_that_only_watched_has_nothing_empty(recorded):
+    shown = Overview.of(Recording.open(recorded))
+    assert shown.curves == {"joints", "places"}
+    assert set(fields(shown)) == {"/visual_input"}

@@ -2,6 +2,7 @@
 
 import csv
 import json
+import subprocess
 from collections import defaultdict
 
 import cv2
@@ -126,6 +127,19 @@ def test_an_export_that_fails_leaves_nothing(imitate, run, tmp_path, monkeypatch
         monkeypatch.setitem(cli.export.KINDS, kind, fails)
         assert imitate("export", str(run), "--to", kind, out).exit_code == 130
     assert list(tmp_path.iterdir()) == []
+
+
+def test_what_a_killed_export_left_is_gone_after_the_next(imitate, run, tmp_path):
+    """A kill leaves a hidden file, and nothing where the export was to be."""
+    ended = subprocess.Popen(["true"])
+    ended.wait()
+    (tmp_path / f".set-{ended.pid}").mkdir()
+    (tmp_path / f".set-{ended.pid}" / "half").touch()
+    (tmp_path / ".set-1").mkdir()  # of an export that goes on
+    (tmp_path / f".other-{ended.pid}").mkdir()
+    assert imitate("export", str(run), "--to", "lerobot", "set").exit_code == 0
+    left = {path.name for path in tmp_path.iterdir()}
+    assert left == {"set", ".set-1", f".other-{ended.pid}"}
 
 
 @pytest.mark.parametrize(

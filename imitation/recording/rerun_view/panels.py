@@ -52,8 +52,8 @@ def blueprint(shown: Overview, demonstrated: bool = False) -> rrb.Blueprint:
 
 def fields(shown: Overview) -> dict[str, tuple[str, str]]:
     """Entity and name of each field that has something in it, by topic."""
-    empty = set() if shown.activation else {"/attractors/activation"}
-    return {topic: field for topic, field in FIELDS.items() if topic not in empty}
+    filled = {"/selection": shown.drawn, "/attractors/activation": shown.activation}
+    return {topic: field for topic, field in FIELDS.items() if filled.get(topic, True)}
 
 
 def _camera(shown: Overview) -> rrb.View:
