@@ -93,7 +93,8 @@ def _smoothness(axes: Any, runs: Sequence[Imitations], settings: Mimicking) -> N
                     f"{tau:g}", (lag, jitter), xytext=(2, 3), textcoords="offset points",
                     fontsize=6, color=colour, ha="left", va="bottom",
                 )  # fmt: skip
-    axes.set(xlabel="lag [s]", ylabel="2-3 Hz jitter [px]", xlim=(0, None), ylim=(0.01, 2))
+    axes.set(xlabel="lag [s]", ylabel="2-3 Hz jitter [px]", ylim=(0.01, 3))
+    axes.set_xlim(0, 1.25 * axes.dataLim.x1)  # room for what stands beside the last point
     axes.set_yscale("log")
     axes.set_yticks([0.01, 0.1, 1], ["0.01", "0.1", "1"])
     axes.set_title(f"τ = {taus[0]:g}..{taus[-1]:g} s", loc="left")

@@ -141,7 +141,7 @@ class LitWorld(World):
             pybullet.GEOM_SPHERE, radius=0.010, rgbaColor=self.mark.colour, **call
         )
         limb = pybullet.createVisualShape(
-            pybullet.GEOM_CAPSULE, radius=0.026, length=0.28, rgbaColor=SKIN, **call
+            pybullet.GEOM_CAPSULE, radius=0.026, length=0.56, rgbaColor=SKIN, **call
         )
         fist = pybullet.createVisualShape(
             pybullet.GEOM_SPHERE, radius=0.034, rgbaColor=SKIN, **call
@@ -152,7 +152,7 @@ class LitWorld(World):
             (pybullet.createMultiBody(0.0, -1, fist, **call), below),
             (
                 pybullet.createMultiBody(0.0, -1, limb, baseOrientation=turned, **call),
-                below + 0.16 * along,
+                below + 0.30 * along,
             ),
         ]
 
