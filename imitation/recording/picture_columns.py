@@ -82,6 +82,13 @@ class Batch:
         told = np.isin(self.times("/camera/used"), self.times(topic))
         return places, told.astype(int).tolist()
 
+    def places_or_nan(self, topic: str) -> Array:
+        """The place of each step (n, 2) [px]; nan, where a line ends, for none."""
+        places, told = self.places(topic)
+        found = np.full((len(told), 2), np.nan)
+        found[np.array(told, dtype=bool)] = places
+        return found
+
     def learned(self) -> dict[int, tuple[float, float]]:
         """Where the hand was seen when an area was learned [px], by time [ns]."""
         found = {}

@@ -181,9 +181,9 @@ class Drawing:
             for curve, values in zip(DYNAMICS, dynamics.T, strict=True)
             if curve in self._dynamics()
         }
-        for topic, name in (("/hand", "places/seen"), ("/truth/hand", "places/own")):
-            if topic in batch:
-                curves[name] = (topic, batch.places(topic)[0])
+        curves["places/seen"] = ("/camera/used", batch.places_or_nan("/hand"))
+        if "/truth/hand" in batch:
+            curves["places/own"] = ("/truth/hand", batch.places("/truth/hand")[0])
         for name, (topic, values) in curves.items():
             send(stream, f"curves/{name}", batch.times(topic), rr.Scalars.columns(scalars=values))
 
