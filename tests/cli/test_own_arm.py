@@ -72,3 +72,12 @@ def test_an_arm_that_is_not_installed_is_refused_with_those_that_are(installed):
     run = imitate(installed, "learn-map", "robot=my_army")
     assert run.returncode == 2
     assert "robot" in run.stderr
+
+
+def test_an_installed_package_without_its_robots_stops_no_other_robot(installed):
+    entry = installed / "my_arm-0.1.dist-info" / "entry_points.txt"
+    entry.write_text("[imitation.robots]\nmy_arm = nowhere.conf\n")
+    run = imitate(installed, "learn-map", "robot=ideal", "learning.limit=0.2", "out=run")
+    assert run.returncode == 1  # too short to learn anything
+    assert "nowhere.conf, which is not there" in run.stderr
+    assert "Traceback" not in run.stderr
