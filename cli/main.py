@@ -105,10 +105,10 @@ def view(
     ] = None,
 ) -> None:
     """Look at a recording in Rerun; makes run.rrd if it is missing."""
-    from cli.job import attempt
+    from cli.reading import reading
     from cli.view import view
 
-    raise typer.Exit(attempt(lambda: view(run, screenshot)))
+    raise typer.Exit(reading(run, lambda: view(run, screenshot)))
 
 
 @app.command()

@@ -99,14 +99,14 @@ def _understood(recording: Recording, command: str, words: Sequence[str], folder
     try:
         recorded = filled(command, _unpacked(recording, folder))
         checked(command, OmegaConf.create(dict(recorded)))
-    except (UserError, ValueError) as error:
-        wrote = recording.metadata["run"]
-        by = another_program(wrote)
-        if not by or not is_refusal(error):
+    except (UserError, ValueError, AttributeError, LookupError, TypeError) as error:
+        by = another_program(recording.metadata["run"])
+        if is_refusal(error) and not by:
             raise
+        todo = f": {by}; type {its_program(recording.metadata['run'])} first" if by else ""
         raise UserError(
-            f"{recording.path} cannot be recomputed here: {by}, which does not understand its "
-            f"configuration ({error}); type {its_program(wrote)} first"
+            f"{recording.path} cannot be recomputed, its configuration is not understood "
+            f"({error}){todo}"
         ) from error
     return checked(command, OmegaConf.create(dict(replaced(command, recorded, words))))
 

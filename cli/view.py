@@ -13,7 +13,7 @@ from imitation.recording.yaml_reading import read_yaml
 
 def view(run: Path, png: Path | None) -> int:
     """Open a run's `run.rrd`, made now if it is missing, or save a picture of it as `png`."""
-    rrd = _rrd_of(run)
+    rrd = rrd_of(run)
     if png is None:
         if not (os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY")):
             raise UserError(f"no screen here; type imitate view {run} --screenshot view.png")
@@ -27,7 +27,8 @@ def view(run: Path, png: Path | None) -> int:
     return DONE
 
 
-def _rrd_of(run: Path) -> Path:
+def rrd_of(run: Path) -> Path:
+    """The Rerun file of a run, made now if it is missing."""
     if not run.exists():
         raise UserError(f"no run at {run}; type the folder that `imitate` named at its end")
     if run.suffix == ".rrd":

@@ -17,6 +17,7 @@ from cli.inspect import inspect
 from cli.reading import reading
 from cli.recover import recover_run
 from cli.verify import verify
+from cli.view import rrd_of
 
 EXAMPLES = 40  # damaged recordings in the usual tests
 MANY = 2000  # in all of them
@@ -30,7 +31,10 @@ COMMANDS = {
     "explain": lambda path: explain(path, 0.1),
     "recover": recover_run,
     "export": lambda path: export([path, path.with_suffix(".csv")], "csv"),
+    "view": lambda path: rrd_of(path) and 0,
 }
+
+DERIVED = (".csv", ".rrd")
 
 
 @pytest.fixture(scope="module")
@@ -92,7 +96,8 @@ def test_a_damaged_message_with_right_checksums_is_one_line(
         return data[:at] + bytes([value]) + data[at + 1 :]
 
     rewrite(small, tmp_path / "bad.mcap", change)
-    (tmp_path / "bad.csv").unlink(missing_ok=True)
+    for suffix in DERIVED:
+        (tmp_path / "bad").with_suffix(suffix).unlink(missing_ok=True)
     path = tmp_path / "bad.mcap"
     assert reading(path, lambda: COMMANDS[name](path)) in (0, 1, 2)
     one_line(capsys)
@@ -118,8 +123,9 @@ def test_memory_stays_small(small, tmp_path):
 def check_config(small, folder, damage, name):
     """A configuration that is not as it should be, in a recording that is sound otherwise."""
     folder.mkdir(exist_ok=True)
-    (folder / "run.csv").unlink(missing_ok=True)
     path = folder / "run.mcap"
+    for suffix in DERIVED:
+        path.with_suffix(suffix).unlink(missing_ok=True)
 
     def attach(one, data):
         if one != "config.yaml":
@@ -163,5 +169,6 @@ def test_attachments_are_never_written_where_their_names_say(small, tmp_path, na
         rewrite(small, tmp_path / "x" / "run.mcap", attach=attach, sealed=True, renamed=trick)
         path = tmp_path / "x" / "run.mcap"
         assert reading(path, lambda path=path: COMMANDS[name](path)) in (0, 2)
-        (tmp_path / "x" / "run.csv").unlink(missing_ok=True)
+        for suffix in DERIVED:
+            path.with_suffix(suffix).unlink(missing_ok=True)
     assert {one.name for one in tmp_path.rglob("*")} <= {"x", "run.mcap"}

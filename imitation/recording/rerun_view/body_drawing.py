@@ -31,22 +31,29 @@ class BodyDrawing:
         self._tree = _tree(shown.urdf)
         self._joints = list(shown.topics["/joint_states"].names)
         told = read_yaml(shown.attachments.get("config.yaml", b"")) or {}
+        try:
+            self._take(told)
+        except (AttributeError, KeyError, TypeError, ValueError) as error:
+            raise ValueError(f"the configuration attached describes no body: {error}") from error
+
+    def _take(self, told: dict[str, Any]) -> None:
+        """Keep what a configuration says of the body and the object."""
         arm = told.get("robot", {}).get("arm", {})
-        self._base = np.array(arm.get("base", (0.0, 0.0, 0.0)))
+        self._base = np.array([float(part) for part in arm.get("base", (0.0, 0.0, 0.0))])
         fingers = (arm.get("gripper") or {}).get("joints", [])
         self._fingers = {name: _range(self._tree.get_joint_by_name(name)) for name in fingers}
-        self._object: dict[str, Any] | None = told.get("object")
+        thing = told.get("object")
+        self._object: dict[str, Any] | None = thing and {
+            "lengths": [float(thing["height"])],
+            "radii": [float(thing["radius"])],
+            "colors": [[round(255 * part) for part in thing["colour"]]],
+        }
 
     def draw_constants(self, stream: rr.RecordingStream) -> None:
         """Draw what does not change."""
         self._tree.log_urdf_to_recording(stream)
         if self._object:
-            look = rr.Cylinders3D(
-                lengths=[self._object["height"]],
-                radii=[self._object["radius"]],
-                colors=[[round(255 * part) for part in self._object["colour"]]],
-                fill_mode="solid",
-            )
+            look = rr.Cylinders3D(**self._object, fill_mode="solid")
             stream.log(OBJECT, look, rr.CoordinateFrame(FRAME), static=True)
 
     def draw(self, stream: rr.RecordingStream, batch: Batch) -> None:
