@@ -76,7 +76,8 @@ def seeing_the_same(
         for one in acting:
             metrics, known = judged(bench, learned), bench.perception(learned.field)
             seeing = Remembered(**known.__dict__, percepts=iter(percepts))
-            steps = mimic(robot, seeing, one, bench.dynamics, bench.selection, duration)
+            choices = bench.dynamics, bench.selection, duration, bench.cfg["mimic"]["turning"]
+            steps = mimic(robot, seeing, one, *choices)
             for sample in steps:
                 metrics.add(sample, robot.truth())
             yield metrics

@@ -131,6 +131,7 @@ class DemoRecord(Common):
 class Mimicry(Section):
     """`mimic`."""
 
+    turning: Whole
     endless: Positive
     catching_up: NotNegative
     largest_lag: NotNegative

@@ -68,7 +68,8 @@ def mimicking(bench: Bench, learned: VisuoMotorMap) -> Iterator[Sample]:
     if duration is None:
         film = "path" in bench.cfg["camera"]
         duration = np.inf if film else bench.cfg["mimic"]["endless"]
-    return mimic(bench.robot, perception, learned, bench.dynamics, bench.selection, duration)
+    turning, selection = bench.cfg["mimic"]["turning"], bench.selection
+    return mimic(bench.robot, perception, learned, bench.dynamics, selection, duration, turning)
 
 
 def drawing(bench: Bench, learned: VisuoMotorMap) -> Iterator[Sample]:

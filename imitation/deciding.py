@@ -3,7 +3,7 @@
 import numpy as np
 
 from imitation.arrays import Array
-from imitation.dynamics import Dynamics, able_to_stop
+from imitation.dynamics import Dynamics, able_to_stop, ramped
 from imitation.sample import Decision, attractors_not_in_map
 from imitation.visuo_motor_map import Attractors
 
@@ -74,6 +74,36 @@ def coming_to_rest(
         return decision
     to_go = decision.postures[0] - posture
     return braking(decision, able_to_stop(decision.velocity, to_go, acceleration, period))
+
+
+def at_own_pace(
+    decision: Decision,
+    posture: Array,
+    before: Array,
+    acceleration: Array,
+    period: float,
+    turning: int,
+) -> Decision:
+    """The same, with joints that turn the whole arm about the vertical not waiting for the rest.
+
+    The others keep together on their line, which keeps the hand at its height over the table.
+
+    Args:
+        decision: Drawn by one attractor, or by none.
+        posture: The present posture, (n_joints,) [rad].
+        before: Velocity of the last period, (n_joints,) [rad/s].
+        acceleration: What each joint may be sped up and braked with, (n_joints,) [rad/s^2].
+        period: Control period [s].
+        turning: How many of the first joints turn the whole arm.
+    """
+    if not len(decision.postures):
+        return decision
+    velocity, to_go = decision.velocity.copy(), decision.postures[0] - posture
+    for some in (slice(0, turning), slice(turning, None)):
+        step = acceleration[some] * period
+        slowed = able_to_stop(velocity[some], to_go[some], acceleration[some], period)
+        velocity[some] = ramped(slowed, before[some], step)
+    return braking(decision, velocity)
 
 
 def braking(decision: Decision, velocity: Array) -> Decision:

@@ -139,6 +139,20 @@ def fastest_stoppable(room: Array, acceleration: Array, period: float) -> Array:
     return np.asarray(step * periods / 2 + room / ((periods + 1) * period))
 
 
+def ramped(velocity: Array, before: Array, step: Array) -> Array:
+    """The velocity (n_joints,) [rad/s] next to `velocity` that `before` can become in one period.
+
+    All joints change together, so that a movement from rest keeps to its line.
+
+    Args:
+        velocity: Wanted.
+        before: Velocity of the last period, (n_joints,) [rad/s].
+        step: What each joint can change by in a period, (n_joints,) [rad/s], above 0.
+    """
+    change = np.abs(velocity - before) / step
+    return np.asarray(before + (velocity - before) / max(float(change.max(initial=0.0)), 1.0))
+
+
 def able_to_stop(velocity: Array, to_go: Array, acceleration: Array, period: float) -> Array:
     """`velocity` (n_joints,) [rad/s] slowed, along its line, so that no joint overshoots.
 
@@ -149,5 +163,5 @@ def able_to_stop(velocity: Array, to_go: Array, acceleration: Array, period: flo
         period: How long a velocity lasts before it can be changed [s].
     """
     allowed = fastest_stoppable(np.abs(to_go), acceleration, period)
-    excess = float((np.abs(velocity) / np.maximum(allowed, 1e-12)).max())
+    excess = float((np.abs(velocity) / np.maximum(allowed, 1e-12)).max(initial=0.0))
     return np.asarray(velocity / max(excess, 1.0))

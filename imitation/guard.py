@@ -6,7 +6,7 @@ from typing import Protocol
 import numpy as np
 
 from imitation.arrays import Array
-from imitation.dynamics import fastest_stoppable
+from imitation.dynamics import fastest_stoppable, ramped
 
 REASONS = ("not a number", "speed", "acceleration", "joint limit", "surroundings")
 ROUNDING = 1e-9  # what differs by less is the same [rad, rad/s]
@@ -85,21 +85,16 @@ class Guard:
         velocity = wanted / max(excess, 1.0)
         if excess > 1.0 + 1e-9:
             reasons.append("speed")
-        ramped = self._ramped(velocity, before, period)
-        if _differ(ramped, velocity):
+        reachable = ramped(velocity, before, self.acceleration * period)
+        if _differ(reachable, velocity):
             reasons.append("acceleration")
-        stopping = self._able_to_stop_at_limits(ramped, posture, period)
-        if _differ(stopping, ramped):
+        stopping = self._able_to_stop_at_limits(reachable, posture, period)
+        if _differ(stopping, reachable):
             reasons.append("joint limit")
         if self._too_near(stopping, posture, period):
             stopping = self._braked_clear(before, posture, period)
             reasons.append("surroundings")
         return stopping, tuple(reasons)
-
-    def _ramped(self, velocity: Array, before: Array, period: float) -> Array:
-        # All joints change together, so that a movement from rest keeps to its line.
-        change = np.abs(velocity - before) / (self.acceleration * period)
-        return np.asarray(before + (velocity - before) / max(float(change.max()), 1.0))
 
     def _braked(self, before: Array, period: float) -> Array:
         # Each joint as hard as it can: waiting for the slowest one would carry the others on.

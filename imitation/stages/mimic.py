@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from imitation.deciding import coming_to_rest, drawn_by
+from imitation.deciding import at_own_pace, drawn_by
 from imitation.dynamics import Dynamics, homeostatic
 from imitation.perception import Perception
 from imitation.robot import Command, Robot
@@ -20,22 +20,25 @@ def mimic(
     dynamics: Dynamics,
     selection: Selection,
     duration: float,
+    turning: int = 0,
 ) -> Iterator[Sample]:
     """Bring the arm to where vision says the hand is, for `duration` [s] or to the film's end.
 
     The neck turns to the reference gaze of visual space. Whose hand is seen there is not asked.
+    So many first joints as `turning` says turn the whole arm about the vertical, at their own pace.
     """
     seen = robot.reset()
     begun, reference = seen.time, np.asarray(perception.space.reference)
     gain, level = homeostatic()
+    before, acceleration = np.zeros(len(seen.posture)), robot.body.acceleration
     while seen.time - begun < duration and not seen.ended:
         percept = perception.perceive(seen)
         chosen = selection.select(learned, percept, seen.posture)
         decision = drawn_by(
             chosen.attractors, chosen.selection, seen.posture, dynamics, gain, level
         )
-        decision = coming_to_rest(decision, seen.posture, robot.body.acceleration, robot.period)
+        decision = at_own_pace(decision, seen.posture, before, acceleration, robot.period, turning)
         command = Command(decision.velocity, gaze=reference)
         sensed, applied = robot.step(command)
         yield Sample(seen, percept, decision, command, applied)
-        seen = sensed
+        seen, before = sensed, applied.limited
