@@ -62,7 +62,7 @@ class Twin:
         stream: Where the camera's pictures go.
         rate: Pictures per second [Hz].
         quality: Of the JPEGs [1..100].
-        faults: What goes wrong with the camera.
+        faults: What goes wrong with the camera, counted from when the arm was first spoken to.
         rng: Draws the grain of its pictures.
     """
 
@@ -80,6 +80,7 @@ class Twin:
     faults: Faults = field(default_factory=Faults)
     rng: np.random.Generator = field(default_factory=np.random.default_rng)
     _shown: bytes = b""
+    _spoken_at: float | None = None  # when the arm was first spoken to [s]
     _session: int = -1
     _quiet_since: float = 0.0  # the arm rests [s]
     _begun: float | None = None  # when the demonstrator began [s]; None: it waits
@@ -108,10 +109,11 @@ class Twin:
         self._followed = posture
         felt = self.arm.read()
         self.emulator.feel(felt.proximity, felt.touching)
-        if self.faults.at(now, "camera_gone"):
+        since = self._since_spoken_to(now)
+        if self.faults.at(since, "camera_gone"):
             return
-        if not (self._shown and self.faults.at(now, "camera_frozen")):
-            self._shown = self._jpeg(self._picture(now))
+        if not (self._shown and self.faults.at(since, "camera_frozen")):
+            self._shown = self._jpeg(self._picture(since))
         self.stream.publish(self._shown)
 
     def _have_demonstrated(self, now: float, resting: bool) -> None:
@@ -133,12 +135,17 @@ class Twin:
         angles = [one.angle(pulses.get(one.channel, one.centre)) for one in self.servos]
         return np.asarray(self.straight + np.array(angles))
 
-    def _picture(self, now: float) -> Image:
+    def _since_spoken_to(self, now: float) -> float:
+        if self._spoken_at is None and self.emulator.sessions:
+            self._spoken_at = now
+        return 0.0 if self._spoken_at is None else now - self._spoken_at
+
+    def _picture(self, since: float) -> Image:
         clean = self.arm.scene.photograph(self.space, self.eye, self.gaze())
         grain = self.rng.integers(-GRAIN, GRAIN + 1, clean.shape, dtype=np.int16)
         picture = np.asarray(np.clip(clean + grain, 0, 255), dtype=np.uint8)
         for name, spoil in SPOILT.items():
-            if self.faults.at(now, name):
+            if self.faults.at(since, name):
                 picture = spoil(picture)
         return picture
 

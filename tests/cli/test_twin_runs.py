@@ -172,7 +172,7 @@ def test_a_hand_before_the_twin_is_mimicked_and_its_action_learned_and_replayed(
         ("error_flag@14", "refuses"),
         ("neck_silence@12", "neck .* is silent"),
         ("neck_reset@12", "started anew"),
-        ("camera_gone@20", "delivered no frame"),
+        ("camera_gone@14", "delivered no frame"),
     ],
 )
 def test_a_device_that_fails_ends_the_run_with_a_readable_recording(fault, told, tmp_path):
@@ -190,7 +190,7 @@ def test_a_device_that_fails_ends_the_run_with_a_readable_recording(fault, told,
 @pytest.mark.timeout(600)
 @pytest.mark.parametrize(
     ("fault", "why"),
-    [("camera_gone@20-21", "stale vision"), ("camera_frozen@20-24", "frozen vision")],
+    [("camera_gone@12-13", "stale vision"), ("camera_frozen@12-16", "frozen vision")],
 )
 def test_while_the_camera_fails_the_arm_rests_and_then_goes_on(fault, why, tmp_path):
     with twin(tmp_path, "--fault", fault) as there:

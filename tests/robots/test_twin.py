@@ -98,6 +98,7 @@ def test_the_neck_turns_the_camera():
 
 def test_a_camera_may_show_black_nothing_new_or_nothing():
     with twin("camera_black@0-1", "camera_frozen@1-2", "camera_gone@2-3") as (one, pictures):
+        one.emulator.sessions = 1
         one.advance(0.0)
         assert not pictures[-1].any()
         one.emulator.arm.motors[0].position += 200
@@ -107,6 +108,16 @@ def test_a_camera_may_show_black_nothing_new_or_nothing():
         assert len(pictures) == 2
         one.advance(3.0)
         assert len(red(pictures[-1]))
+
+
+def test_a_camera_goes_wrong_so_long_after_the_arm_was_first_spoken_to():
+    with twin("camera_gone@1-2") as (one, pictures):
+        one.advance(0.0)
+        one.advance(1.5)
+        one.emulator.sessions = 1
+        for now in (5.0, 6.0, 6.9, 7.0):
+            one.advance(now)
+        assert len(pictures) == 4
 
 
 def test_pictures_of_an_arm_at_rest_are_not_frozen():
@@ -119,6 +130,7 @@ def test_pictures_of_an_arm_at_rest_are_not_frozen():
 
 def test_the_tag_may_be_lost_or_doubled():
     with twin("tag_lost@1-2", "two_tags@2-3") as (one, pictures):
+        one.emulator.sessions = 1
         for now in (0.0, 1.0, 2.0):
             one.advance(now)
         alone, lost, two = (len(red(picture)) for picture in pictures)
