@@ -12,6 +12,7 @@ from cli.kinds import (
     Positive,
     Posture,
     Section,
+    Share,
     Size,
     Target,
     Triple,
@@ -66,11 +67,20 @@ class Named(Target):
     name: str
 
 
+class HandEvents(Section):
+    """`recording.hand`."""
+
+    after: NotNegative
+    gap: NotNegative
+    least: Share
+
+
 class Recording(Section):
     """`recording`."""
 
     max_loss: Positive
     reproducible: bool
+    hand: HandEvents
     live: bool
 
 

@@ -23,6 +23,7 @@ from cli.replaying import replaying
 from cli.run import ATTACHED
 from cli.usual import filled
 from cli.what_if import replaced
+from imitation.hand_watch import HandWatch
 from imitation.recording.action_file import load_action
 from imitation.recording.map_file import LearnedMap, load_map
 from imitation.recording.mcap_recording import Recording
@@ -87,7 +88,8 @@ def anew(recording: Recording, words: Sequence[str] = ()) -> Iterator[Anew]:
         told, fed = tee(steps_told(recording))
         bench.relive(one.step for one in fed)
         field, samples = STAGES[command](bench)
-        yield Anew(bench, field, told, samples)
+        noticed = HandWatch(**cfg["recording"]["hand"]).noticed
+        yield Anew(bench, field, told, map(noticed, samples))
 
 
 def _stored(bench: Bench) -> LearnedMap:
@@ -186,7 +188,9 @@ def _unpacked(recording: Recording, folder: Path) -> Config:
             path.write_bytes(data)
             cfg[key] = str(path)
     models = [data for name, data in recording.attachments.items() if name.endswith(".urdf")]
-    if models and "urdf" in cfg.get("robot", {}).get("arm", {}):
+    robot = cfg.get("robot")
+    arm = robot.get("arm") if isinstance(robot, dict) else None
+    if models and isinstance(arm, dict) and "urdf" in arm:
         (folder / "arm.urdf").write_bytes(models[0])
-        cfg["robot"]["arm"]["urdf"] = str(folder / "arm.urdf")
+        arm["urdf"] = str(folder / "arm.urdf")
     return {"out": None, **cfg}

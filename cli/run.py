@@ -22,7 +22,8 @@ from cli.provenance import run_record, sha256
 from imitation.analysis.cadence import Cadence
 from imitation.analysis.frame_count import FrameCount
 from imitation.device import DeviceError
-from imitation.recording.recorder import Recorder, RecorderError
+from imitation.hand_watch import HandWatch
+from imitation.recording.recorder import Happening, Recorder, RecorderError
 from imitation.robot import SECOND, Truth
 from imitation.robots.bullet.world import find_urdf
 from imitation.sample import Event, Sample
@@ -106,6 +107,7 @@ class Run:
         """
         robot, attached = self.bench.robot, dict(self._attachments())
         watchers = [watch] if watch else []
+        noticed = HandWatch(**self.cfg["recording"]["hand"]).noticed
         with ExitStack() as open_until_the_end:
             interruption = open_until_the_end.enter_context(
                 Interruption(self.sweep, at_once=lambda: robot.leading)
@@ -118,20 +120,20 @@ class Run:
                 open_until_the_end.enter_context(closing(live))
                 watchers.append(live.show)
             report = open_until_the_end.enter_context(ProgressReport(self.command))
-            confirm_motion(self.bench)
-            sample: Sample | None = None
+            last_ns = 0  # when the last step was commanded [ns]
             try:
-                for sample in until_interrupted(samples, interruption):
+                confirm_motion(self.bench)
+                for sample in map(noticed, until_interrupted(samples, interruption)):
                     truths = robot.truth()
                     for one in (recorder.write, *watchers):
                         one(sample, truths)
                     report.step(sample)
                     self._note(sample)
+                    last_ns = sample.applied.time_ns
                 robot.park(self.bench.rest)
             except DeviceError as error:
                 robot.close()  # at once: the arm freezes
-                if sample:
-                    recorder.tell(sample, Event("device", str(error)))
+                recorder.tell(Happening(last_ns, Event("device", str(error))))
                 raise
             except RecorderError:
                 robot.rest()

@@ -26,6 +26,7 @@ class Percept:
     hand: Array | None  # where the hand is seen, (2,) [px of visual space]; None: not seen
     visual_input: Array  # I, activity of the visual neurons, (rows, columns)
     places: Array  # where what is seen in each area lies, (rows, columns, 2) [px]; nan: nothing is
+    pixels: Array  # where all that looks like a hand is seen, own or other's, (n, 2) [px]
 
 
 @dataclass(frozen=True)
@@ -50,4 +51,4 @@ class Perception:
         counting = places if attended is None else places[self.field.inside(attended, places)]
         hand = counting.sum(axis=0) / len(counting) if len(counting) else None
         activity, means = self.field.activity(places), self.field.mean_places(places)
-        return Percept(observation.frame_time_ns, hand, activity, means)
+        return Percept(observation.frame_time_ns, hand, activity, means, places)

@@ -39,7 +39,9 @@ class Scene:
         for _ in range(round(seconds / TICK)):
             seen = np.array(hands).reshape(-1, 2)
             activity, places = FIELD.activity(seen), FIELD.mean_places(seen)
-            told = self.recall.notice(Percept(round(self.time * 1e9), None, activity, places))
+            told = self.recall.notice(
+                Percept(round(self.time * 1e9), None, activity, places, np.empty((0, 2)))
+            )
             predicted = self.recall.predict(self.time)
             told += [predicted] if predicted else []
             self.events += [(self.time, event) for event in told if event.kind != "noticed"]

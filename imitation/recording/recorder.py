@@ -3,6 +3,7 @@
 import queue
 from collections.abc import Iterable, Mapping, Sequence
 from contextlib import suppress
+from dataclasses import dataclass
 from pathlib import Path
 
 from imitation.recording.fifo import Worker, WorkFailedError
@@ -18,6 +19,17 @@ WALL_LIMIT = 1.0  # a step that waits for longer is written, unless reproducible
 
 class RecorderError(RuntimeError):
     """The recording cannot be written; said in one line."""
+
+
+@dataclass(frozen=True)
+class Happening:
+    """What happened outside a step."""
+
+    time_ns: int  # since the start of the run
+    event: Event
+
+
+Told = tuple[Sample, Sequence[Truth]] | Happening
 
 
 class Recorder:
@@ -62,7 +74,7 @@ class Recorder:
             self._file.begin(metadata, attachments)
         except OSError as error:
             raise self._failure(error) from error
-        self._worker: Worker[tuple[Sample, Sequence[Truth] | Event]] = Worker(
+        self._worker: Worker[Told] = Worker(
             self._write, chunk, limit, None if reproducible else WALL_LIMIT
         )
 
@@ -75,15 +87,15 @@ class Recorder:
         """
         self._put((sample, truths))
 
-    def tell(self, last: Sample, event: Event) -> None:
-        """Record what happened after the `last` step.
+    def tell(self, happening: Happening) -> None:
+        """Record what happened after the last step, or before the first.
 
         Raises:
             RecorderError: As `write` does.
         """
-        self._put((last, event))
+        self._put(happening)
 
-    def _put(self, what: tuple[Sample, Sequence[Truth] | Event]) -> None:
+    def _put(self, what: Told) -> None:
         try:
             self._worker.put(what, self._patience)
         except queue.Full as full:
@@ -122,14 +134,15 @@ class Recorder:
     def __exit__(self, *error: object) -> None:
         self.close()
 
-    def _write(self, steps: Sequence[tuple[Sample, Sequence[Truth] | Event]]) -> None:
-        told = [message for step in steps for message in self._told(*step)]
-        self._file.add_chunk(told, jpeg=steps[0][0].seen.jpeg is not None)
+    def _write(self, told: Sequence[Told]) -> None:
+        messages = [message for one in told for message in self._messages(one)]
+        steps = (one[0] for one in told if isinstance(one, tuple))
+        self._file.add_chunk(messages, jpeg=any(step.seen.jpeg is not None for step in steps))
 
-    def _told(self, sample: Sample, more: Sequence[Truth] | Event) -> Iterable[Message]:
-        if isinstance(more, Event):
-            return [event_message(sample.applied.time_ns, more)]
-        return self._steps.of(sample, more)
+    def _messages(self, told: Told) -> Iterable[Message]:
+        if isinstance(told, Happening):
+            return [event_message(told.time_ns, told.event)]
+        return self._steps.of(*told)
 
     def _failure(self, error: BaseException) -> RecorderError:
         self._failed = True

@@ -120,7 +120,8 @@ def sample(step: int, posture, distance: float, *events: str, selected: int = 2)
         selection, index, nothing, np.zeros(0), nothing, 1.0, 0.0, zero, zero, TARGET, distance
     )
     told = tuple(Event(kind, f"{kind}.") for kind in events)
-    percept = Percept(time_ns, None, np.zeros(FIELD.shape), np.full((*FIELD.shape, 2), np.nan))
+    nowhere = np.full((*FIELD.shape, 2), np.nan)
+    percept = Percept(time_ns, None, np.zeros(FIELD.shape), nowhere, np.empty((0, 2)))
     applied = Applied(zero, zero, zero, (), time_ns)
     return Sample(seen, percept, decision, Command(zero), applied, told)
 

@@ -92,6 +92,8 @@ def test_a_fault_that_stays_ends_as_the_table_says(imitate, learned, fault):
         assert answer.why in " ".join(told["limited"])
         *_, last = steps_told(recording)
         assert not np.any(last.step.sent)  # the arm rests
+    elif answer.event == "hand":
+        assert answer.why in " ".join(told["hand"])
     else:
         assert answer.event in ("device", "none")
     if answer.event == "none":
@@ -105,6 +107,20 @@ def test_a_fault_that_is_soon_over_ends_as_the_table_says(imitate, learned, faul
     code, recording = run(imitate, learned, fault, SOON_OVER)
     assert code == answer.soon_over
     assert ("device" in events(recording)) == (code == 3)
+
+
+def test_a_device_that_fails_before_the_first_step_is_told_of_in_the_recording(imitate):
+    words = ("robot=ideal", "fault=silence", "fault.at=0", "out=run")
+    assert imitate("learn-map", *words).exit_code == 3
+    assert "does not answer" in events(Recording.open(imitate.folder / "run"))["device"][0]
+    assert verify(imitate.folder / "run") == 0
+    assert imitate("inspect", "run").exit_code == 0
+    assert imitate("explain", "run", "--at", "0").exit_code == 2
+
+
+def test_a_tag_that_is_soon_back_is_told_of(imitate, learned):
+    _, recording = run(imitate, learned, "tag_lost", lasts="1.0")
+    assert events(recording)["hand"] == ["no hand is seen any more", "a hand is seen again"]
 
 
 @pytest.mark.parametrize(

@@ -54,4 +54,4 @@ def hand_at(step: int, place) -> Percept:
     """The hand seen at `place` [px] in the frame of a step; None: not seen."""
     hand = None if place is None else np.asarray(place, dtype=float)
     seen = np.empty((0, 2)) if hand is None else hand[None]
-    return Percept(step * 40_000_000, hand, FIELD.activity(seen), FIELD.mean_places(seen))
+    return Percept(step * 40_000_000, hand, FIELD.activity(seen), FIELD.mean_places(seen), seen)

@@ -96,7 +96,8 @@ def sample(step: int, rng: np.random.Generator) -> Sample:
     events = (
         (Event("episode", "A trial begins.", {"trial": step // 100}),) if not step % 100 else ()
     )
-    percept = Percept(now, hand, activity, np.full((*activity.shape, 2), np.nan))
+    places = np.full((*activity.shape, 2), np.nan)
+    percept = Percept(now, hand, activity, places, where[None])
     applied = Applied(velocity, limited, limited, reasons, now)
     return Sample(seen, percept, decision, Command(velocity), applied, events)
 
