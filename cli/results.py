@@ -18,6 +18,7 @@ from cli.every_seed import on_every_seed
 from cli.experiments import composed
 from cli.jobs.learn_map import learned_by
 from cli.jobs.reach import reaching, trials_of
+from cli.results_deferred import replay_one, told_of_replays
 from cli.stages import learning
 from imitation.analysis.metrics import learn_map_metrics
 from imitation.analysis.statistics import bootstrap, wilson
@@ -155,7 +156,7 @@ def _rate(successes: int, n: int) -> list[float]:
 def measure(cfg: Config) -> dict[str, list[dict[str, Any]]]:
     """Run every condition."""
     seeds = range(cfg["first_seed"], cfg["first_seed"] + cfg["seeds"])
-    found: dict[str, list[dict[str, Any]]] = {"learning": [], "reaching": []}
+    found: dict[str, list[dict[str, Any]]] = {"learning": [], "reaching": [], "replaying": []}
     maps: dict[str, list[Learned]] = {}
     each = partial(on_every_seed, workers=cfg["workers"], counted="maps")
     for name, words in cfg["learning"].items():
@@ -176,6 +177,15 @@ def measure(cfg: Config) -> dict[str, list[dict[str, Any]]]:
                 row = told_of_reaching(called, field, results, late, cfg["resamples"])
                 found["reaching"].append(row)
                 write(cfg, found)
+    for higher in cfg["heights"]:
+        for name, words in cfg["replaying"].items():
+            shown = [
+                (seed, run.stored.map, higher, words)
+                for seed, run in zip(seeds, maps["right_4x4"], strict=True)
+            ]
+            replays = each(f"replay: {name}, {100 * higher:g} cm higher", replay_one, shown)
+            found["replaying"].append(told_of_replays(name, higher, replays))
+            write(cfg, found)
     return found
 
 
@@ -209,7 +219,8 @@ def main(words: Sequence[str]) -> None:
         cfg: Any = OmegaConf.to_container(compose("results", list(words)), resolve=True)
     found = measure(cfg)
     for title, rows in found.items():
-        show(rows, title)
+        if rows:
+            show(rows, title)
 
 
 if __name__ == "__main__":

@@ -155,8 +155,8 @@ def _lags(runs: Sequence[Imitations], settings: Mimicking) -> list[Claim]:
         for period in (settings.slow, settings.quick)
     ]
     half = settings.told(
-        "Of the winner's lag, half the time that the arm's acceleration takes from one learned "
-        "posture to the next (median).",
+        "Half the time that all joints together take from one learned posture to the next, as "
+        "fast as their acceleration allows (median).",
         runs,
         lambda run: np.array([run.transition_s / 2]),
         "s",
