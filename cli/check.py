@@ -12,7 +12,7 @@ from pydantic import BaseModel, ConfigDict, ValidationError, create_model
 from cli.build import Config
 from cli.config_dir import not_known
 from cli.errors import UserError, nearest
-from cli.keys import comments, known_targets
+from cli.keys import comments, experiments_setting, known_targets
 from cli.kinds import Target
 from cli.ranges import RANGES
 from cli.schema import COMMANDS
@@ -168,6 +168,9 @@ def in_words(
         above, _, _ = key.rpartition(".")
         inside = f"{above}." if above else ""
         known = comments(command) if command else [inside + name for name in valid]
+        if setting := experiments_setting(key) if command else []:
+            named = " or ".join(setting)
+            return f"experiment={named} sets {key}, which {command} lacks; leave it out"
         return f"unknown key {key}{nearest(key, known)}"
     if first["type"] == "missing":
         return f"key {'.'.join(map(str, (*path, *first['loc'])))} is missing from the configuration"

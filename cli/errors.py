@@ -26,7 +26,8 @@ def nearest(word: str, valid: Iterable[str]) -> str:
 
 def no_such(kind: str, word: str, valid: Sequence[str]) -> str:
     """That `word` is not among the choices, with the nearest and all of them."""
-    return f"there is no {kind} {word}{nearest(word, valid) or ';'} choose from {', '.join(valid)}"
+    named = word or "without a name"
+    return f"there is no {kind} {named}{nearest(word, valid) or ';'} choose from {', '.join(valid)}"
 
 
 def in_usage(error: Any) -> str:

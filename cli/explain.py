@@ -56,8 +56,11 @@ def sentences(when: Moment, why: Reason, dynamics: Dynamics) -> Iterator[str]:
     else:
         pull, noise = _fastest(why.pulled(dynamics)), _fastest(why.shaken(dynamics))
         count = f"{len(why.index)} attractor{'s take' if len(why.index) != 1 else ' takes'} part"
+        pulled = f"the pull is up to {pull:.3g} rad/s with gain A = {why.gain:.3g}"
+        if not why.gain:
+            pulled = "but gain A = 0 and nothing pulls (shares: of what would pull)"
         yield (
-            f"{count}, the pull is up to {pull:.3g} rad/s with gain A = {why.gain:.3g}; "
+            f"{count}, {pulled}; "
             f"noise of level ε = {why.noise_level:.3g} adds up to {noise:.3g} rad/s."
         )
     yield from _slowed(why, dynamics)

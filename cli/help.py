@@ -41,7 +41,10 @@ EXAMPLES = {
         ("imitate reach map=RUN controller=yuragi trials=6", "the paper's law, six trials"),
         ("imitate reach map=RUN 'target=[100,60]'", "a place; mind the quotes"),
         ("imitate reach map=RUN 'area=[1,2]'", "the place learned for an area"),
-        ("imitate reach map=RUN fault=camera_gone fault.lasts=1", "what it does when that happens"),
+        (
+            "imitate reach map=RUN fault=camera_gone fault.at=0.5 fault.lasts=1",
+            "what it does when that happens",
+        ),
     ],
     "demo-record": [
         ("imitate demo-record", "watch a hand take a can, carry it by and let it go"),

@@ -144,7 +144,8 @@ def lasted(told: Mapping[str, Any], metrics: Mapping[str, Any]) -> Iterator[str]
     yield f"{told['lasted_s']:.2f} s of robot time"
     if metrics:
         yield f"{metrics.get('steps')} steps"
-        yield f"{metrics.get('wall_time_s')} s at the wall"
+    if wall := metrics.get("wall_time_s"):
+        yield f"{wall} s at the wall"
     if rate := metrics.get("achieved_rate_hz"):
         yield f"{rate:.2f} steps a second, {metrics.get('late_ticks', 0)} late"
 

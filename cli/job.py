@@ -109,6 +109,9 @@ def _finish(run: Run, outcome: Outcome) -> int:
     run.write_metrics("done", outcome.metrics)
     run.draw()
     show(run.command, run.folder, outcome, run.cadence)
+    begins = run.cfg.get("fault", {}).get("at")
+    if begins is not None and begins >= run.robot_time_s:
+        _say(f"the run was over before fault.at={begins:g} s; type a smaller one to spoil it")
     if outcome.complaint:
         _say(outcome.complaint)
         return NOT_TRUE

@@ -47,6 +47,12 @@ def defaults(command: str) -> dict[str, str]:
     return {key: value for key, (value, _) in _lines(command).items()}
 
 
+def experiments_setting(key: str) -> list[str]:
+    """The experiments, of whatever command, that set a key."""
+    files = sorted((CONF / "experiment").glob("*.yaml"))
+    return [path.stem for path in files if key in _read(path, "")]
+
+
 def own_keys(command: str) -> list[str]:
     """A command's keys outside its groups, and in those that leave no choice."""
     own, *shared = _files(command)
@@ -63,6 +69,8 @@ def own_keys(command: str) -> list[str]:
 def _lines(command: str) -> dict[str, tuple[str, str]]:
     found: dict[str, tuple[str, str]] = {}
     for group in groups_of(command):
+        if group == "experiment":  # its files set keys of the other groups
+            continue
         for path in sorted((CONF / group).glob("*.yaml")):
             found |= _read(path, group)
     for name in _files(command):

@@ -62,10 +62,17 @@ def _not_composed(command: str, error: ConfigCompositionException) -> str:
     if unknown:
         known = [*groups_of(command), *comments(command)]
         if unknown[1] in known:
-            return f"key {unknown[1]} does not go with the other words typed: their choice lacks it"
+            return _not_chosen(command, unknown[1])
         return f"unknown key {unknown[1]}{nearest(unknown[1], known)}"
     cause = error.__cause__
     return f"{_first_line(error)}{f': {_first_line(cause)}' if cause else ''}"
+
+
+def _not_chosen(command: str, key: str) -> str:
+    group, _, _ = key.partition(".")
+    choices = groups_of(command).get(group)
+    other = f"; choose another {group}= of {', '.join(choices)}" if choices else ""
+    return f"key {key} does not go with the other words typed: their choice lacks it{other}"
 
 
 def _bad_yaml(error: yaml.YAMLError) -> str:

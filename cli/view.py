@@ -6,9 +6,12 @@ import sys
 from pathlib import Path
 
 from cli.errors import DEVICE, DONE, UserError, say
+from cli.printed import on_stdout
 from imitation.recording.rerun_view import derive, screenshot
 from imitation.recording.run_files import file_in
 from imitation.recording.yaml_reading import read_yaml
+
+PICTURES = (".png", ".jpg", ".jpeg")
 
 
 def view(run: Path, png: Path | None) -> int:
@@ -18,12 +21,15 @@ def view(run: Path, png: Path | None) -> int:
         if not (os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY")):
             raise UserError(f"no screen here; type imitate view {run} --screenshot view.png")
         return subprocess.run([sys.executable, "-m", "rerun_cli", str(rrd)], check=False).returncode
+    if png.suffix.lower() not in PICTURES:
+        raise UserError(f"--screenshot {png}: wanted a name that ends in {', '.join(PICTURES)}")
     try:
         png.absolute().parent.mkdir(parents=True, exist_ok=True)
         screenshot(rrd, png)
     except RuntimeError as error:
         say(str(error))
         return DEVICE
+    on_stdout().print(f"files  {png}", markup=False)
     return DONE
 
 

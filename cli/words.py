@@ -62,8 +62,10 @@ def understand(typed: list[str]) -> Words:
         elif name in WITH_VALUE:
             words.flags.append(_with_value(name, value if equals else _next(name, rest)))
         elif word.startswith("-"):
-            known = [*SWITCHES, *OURS, *WITH_VALUE, "--help"]
-            raise UserError(f"unknown option {word}{nearest(word, known)}")
+            # --yes lets a real arm move without asking: nobody should be led to it.
+            known = {*SWITCHES, *OURS, *WITH_VALUE, "--help"} - {"--yes"}
+            hint = nearest(name, sorted(known)) or ";"
+            raise UserError(f"unknown option {name}{hint} keys are typed {name.lstrip('-')}=VALUE")
         else:
             raise UserError(f"expected KEY=VALUE, got {word}; type for instance seed=1")
     if not words.sweep:

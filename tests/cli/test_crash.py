@@ -70,6 +70,7 @@ def check_recovered(imitate, run):
     for command in ("inspect", "verify"):
         told = imitate(command, str(run))
         assert told.exit_code == 0, told.output
+        assert "None" not in told.output
     metrics = json.loads((run / "metrics.json").read_text())
     assert metrics["status"] == "truncated"
     with AnyReader([run / "run.mcap"]) as reader:

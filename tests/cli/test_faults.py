@@ -100,6 +100,13 @@ def test_a_fault_that_stays_ends_as_the_table_says(imitate, learned, fault):
         assert "vision" not in " ".join(told.get("limited", []))
 
 
+def test_a_run_that_was_over_before_its_fault_says_so(imitate, learned):
+    words = ("robot=ideal", f"map={learned}", "fault=tag_lost", "fault.at=60")
+    result = imitate("reach", *words)
+    assert result.exit_code == 0
+    assert "over before fault.at=60" in result.stderr
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("fault", FAULTS)
 def test_a_fault_that_is_soon_over_ends_as_the_table_says(imitate, learned, fault):

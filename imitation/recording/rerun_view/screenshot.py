@@ -42,13 +42,21 @@ def screenshot(rrd: Path, png: Path) -> None:
             client, end = _loaded(viewer, port)
             client.set_time(TIMELINE, duration=end, play_state="paused")
             time.sleep(SETTLE)
-            client.save_screenshot(str(png.absolute()))
+            _save(client, png)
         except (ConnectionError, ChildProcessError) as error:
             raise RuntimeError(_why(told)) from error
         finally:
             if viewer.poll() is None:
                 os.killpg(viewer.pid, signal.SIGTERM)
             viewer.wait()
+
+
+def _save(client: ViewerClient, png: Path) -> None:
+    try:
+        client.save_screenshot(str(png.absolute()))
+    except ConnectionError as error:
+        told, _, _ = str(error).partition(" (Internal)")
+        raise RuntimeError(told) from error
 
 
 def _loaded(viewer: "subprocess.Popen[bytes]", port: int) -> tuple[ViewerClient, float]:
