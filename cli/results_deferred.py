@@ -6,7 +6,6 @@ from typing import Any
 import numpy as np
 
 from cli.deferred_runs import demonstrated, replayed
-from cli.experiments import composed
 from imitation.visuo_motor_map import VisuoMotorMap
 
 GOAL = 0.04  # a can is put where it was put when it stands nearer than this [m]
@@ -15,9 +14,8 @@ GOAL = 0.04  # a can is put where it was put when it stands nearer than this [m]
 def replay_one(task: tuple[int, VisuoMotorMap, float, Sequence[str]]) -> dict[str, Any]:
     """Watch with one seed an action shown so much higher [m], and replay it."""
     seed, learned, higher, words = task
-    level = composed("demo-record")["demonstrator"]["height"]
-    action = demonstrated(seed, f"demonstrator.height={level + higher}")
-    return replayed(seed, learned, action, *words).result()
+    raised = f"demonstrator.raise={higher}"
+    return replayed(seed, learned, demonstrated(seed, raised), raised, *words).result()
 
 
 def told_of_replays(name: str, higher: float, runs: Sequence[dict[str, Any]]) -> dict[str, Any]:
