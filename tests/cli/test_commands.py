@@ -139,7 +139,7 @@ def choices_of_commands():
                 yield pytest.param(command, group, choice, marks=marks)
 
 
-@pytest.mark.parametrize(("command", "group", "choice"), choices_of_commands())
+@pytest.mark.parametrize(("command", "group", "choice"), list(choices_of_commands()))
 def test_every_choice_composes_and_passes_the_check(command, group, choice):
     from hydra import compose, initialize_config_module
 
