@@ -4,13 +4,13 @@ import pytest
 from hydra import compose, initialize_config_module
 
 from cli.check import checked
-from cli.demo import commands, main
+from cli.demo import commands, main, words_for
 from cli.figures import FIGURES
 from cli.verify import verify
 from cli.words import understand
 
 
-@pytest.mark.parametrize("typed", list(commands("demo-now")), ids=" ".join)
+@pytest.mark.parametrize("typed", [*commands("demo-now"), *map(words_for, FIGURES)], ids=" ".join)
 def test_a_command_of_the_demo_composes(typed):
     command, *words = typed
     if command == "figure":
