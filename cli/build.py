@@ -15,6 +15,7 @@ from imitation.controllers.controller import Controller
 from imitation.dynamics import Dynamics
 from imitation.gaze import VisualSpace
 from imitation.guard import Guard
+from imitation.hand_watch import HandWatch
 from imitation.perception import Perception
 from imitation.robot import SECOND, Arm, Body, Camera, Robot
 from imitation.robots.bodies import body_of, guard_of
@@ -23,7 +24,7 @@ from imitation.robots.demonstrators import HandOverTable
 from imitation.robots.dry_run import DryRun
 from imitation.robots.recorded import RecordedRobot
 from imitation.robots.scenery import can_on_table, hand_over_table, held_at
-from imitation.sample import RecordedStep
+from imitation.sample import RecordedStep, Sample
 from imitation.selection import Selection
 from imitation.sequence import TimeCells, TimedSequence
 from imitation.visual_field import VisualField
@@ -182,6 +183,10 @@ class Bench:
     def field(self) -> VisualField:
         """The visual field that `field=` names."""
         return VisualField(size=self.space.size, **self.cfg["field"])
+
+    def watched(self, samples: Iterator[Sample]) -> Iterator[Sample]:
+        """The steps, with what becomes of the hand in view among their events."""
+        return map(HandWatch(**self.cfg["recording"]["hand"]).noticed, samples)
 
     def perception(self, field: VisualField) -> Perception:
         """Sees the hand in `field`."""

@@ -5,7 +5,7 @@ import shlex
 from collections.abc import Sequence
 from pathlib import Path
 
-import yaml
+from imitation.recording.yaml_reading import read_yaml
 
 BODY = ("robot=", "robot.", "neck=", "neck.", "period=")  # words that choose the arm
 SIGHT = ("camera", "vision")  # words that choose what is seen
@@ -33,7 +33,7 @@ def newest_map(robot: str) -> str | None:
     maps = [path for depth in ("*", "*/*", "*/*/*") for path in runs.glob(f"{depth}/map.npz")]
     for path in sorted(maps, key=lambda one: one.stat().st_mtime, reverse=True):
         told = path.with_name("config.yaml")
-        if told.is_file() and yaml.safe_load(told.read_text())["robot"]["name"] == robot:
+        if told.is_file() and read_yaml(told.read_bytes())["robot"]["name"] == robot:
             return shlex.quote(os.fspath(path.parent))
     return None
 

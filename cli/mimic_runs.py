@@ -9,7 +9,7 @@ import numpy as np
 
 from cli.build import Bench, Config, generator
 from cli.make import made_of
-from cli.stages import drawing, mimicking, mirror_of
+from cli.stages import drawing, following, mimicking, mirror_of
 from imitation.analysis.mimic_metrics import Judging, MimicMetrics
 from imitation.analysis.mirror import Aside, aside
 from imitation.arrays import Array, Mask
@@ -17,7 +17,6 @@ from imitation.perception import Percept, Perception
 from imitation.robot import SECOND, Observation
 from imitation.robots.blind_camera import BlindCamera
 from imitation.sample import Sample
-from imitation.stages.mimic import mimic
 from imitation.visuo_motor_map import VisuoMotorMap
 
 Stage = Callable[[Bench, VisuoMotorMap], Iterator[Sample]]
@@ -76,9 +75,7 @@ def seeing_the_same(
         for one in acting:
             metrics, known = judged(bench, learned), bench.perception(learned.field)
             seeing = Remembered(**known.__dict__, percepts=iter(percepts))
-            choices = bench.dynamics, bench.selection, duration, bench.cfg["mimic"]["turning"]
-            steps = mimic(robot, seeing, one, *choices)
-            for sample in steps:
+            for sample in following(bench, one, seeing, duration):
                 metrics.add(sample, robot.truth())
             yield metrics
 

@@ -23,7 +23,6 @@ from cli.replaying import replaying
 from cli.run import ATTACHED
 from cli.usual import filled
 from cli.what_if import replaced
-from imitation.hand_watch import HandWatch
 from imitation.recording.action_file import load_action
 from imitation.recording.map_file import LearnedMap, load_map
 from imitation.recording.mcap_recording import Recording
@@ -88,8 +87,7 @@ def anew(recording: Recording, words: Sequence[str] = ()) -> Iterator[Anew]:
         told, fed = tee(steps_told(recording))
         bench.relive(one.step for one in fed)
         field, samples = STAGES[command](bench)
-        noticed = HandWatch(**cfg["recording"]["hand"]).noticed
-        yield Anew(bench, field, told, map(noticed, samples))
+        yield Anew(bench, field, told, bench.watched(samples))
 
 
 def _stored(bench: Bench) -> LearnedMap:

@@ -6,9 +6,8 @@ from typing import Any
 import numpy as np
 
 from cli.deferred_runs import demonstrated, replayed
+from imitation.analysis.deferred import PLACED
 from imitation.visuo_motor_map import VisuoMotorMap
-
-GOAL = 0.04  # a can is put where it was put when it stands nearer than this [m]
 
 
 def replay_one(task: tuple[int, VisuoMotorMap, float, Sequence[str]]) -> dict[str, Any]:
@@ -27,7 +26,7 @@ def told_of_replays(name: str, higher: float, runs: Sequence[dict[str, Any]]) ->
         "mark higher by [cm]": 100 * higher,
         "order correct": f"{sum(bool(run['order_correct']) for run in runs)} of {len(runs)}",
         "grasped": sum(bool(run["grasped"]) for run in runs),
-        "within 4 cm of the goal": sum(error <= GOAL for error in errors),
+        f"within {100 * PLACED:g} cm of the goal": sum(error <= PLACED for error in errors),
         "farthest from it [cm]": 100 * max(errors, default=float("nan")),
         "timing error median [s]": float(np.median(timing)) if len(timing) else None,
         "timing error largest [s]": float(timing.max()) if len(timing) else None,

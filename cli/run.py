@@ -22,7 +22,6 @@ from cli.provenance import run_record, sha256
 from imitation.analysis.cadence import Cadence
 from imitation.analysis.frame_count import FrameCount
 from imitation.device import DeviceError
-from imitation.hand_watch import HandWatch
 from imitation.recording.recorder import Happening, Recorder, RecorderError
 from imitation.robot import SECOND, Truth
 from imitation.robots.bullet.world import find_urdf
@@ -107,7 +106,6 @@ class Run:
         """
         robot, attached = self.bench.robot, dict(self._attachments())
         watchers = [watch] if watch else []
-        noticed = HandWatch(**self.cfg["recording"]["hand"]).noticed
         with ExitStack() as open_until_the_end:
             interruption = open_until_the_end.enter_context(
                 Interruption(self.sweep, at_once=lambda: robot.leading)
@@ -123,7 +121,7 @@ class Run:
             last_ns = 0  # when the last step was commanded [ns]
             try:
                 confirm_motion(self.bench)
-                for sample in map(noticed, until_interrupted(samples, interruption)):
+                for sample in self.bench.watched(until_interrupted(samples, interruption)):
                     truths = robot.truth()
                     for one in (recorder.write, *watchers):
                         one(sample, truths)

@@ -7,6 +7,7 @@ import numpy as np
 from cli.build import Bench, generator
 from cli.make import made_of
 from imitation.controllers.corrected_aim import CorrectedAim
+from imitation.perception import Perception
 from imitation.robots.hand_paths import Mirrored
 from imitation.sample import Sample
 from imitation.stages.babbling import Babbling, Curiosity
@@ -68,6 +69,13 @@ def mimicking(bench: Bench, learned: VisuoMotorMap) -> Iterator[Sample]:
     if duration is None:
         film = "path" in bench.cfg["camera"]
         duration = np.inf if film else bench.cfg["mimic"]["endless"]
+    return following(bench, learned, perception, duration)
+
+
+def following(
+    bench: Bench, learned: VisuoMotorMap, perception: Perception, duration: float
+) -> Iterator[Sample]:
+    """The steps of following what `perception` sees of a hand for `duration` [s]."""
     turning, selection = bench.cfg["mimic"]["turning"], bench.selection
     return mimic(bench.robot, perception, learned, bench.dynamics, selection, duration, turning)
 

@@ -59,12 +59,13 @@ class VisualField:
 
     def activity(self, places: Array) -> Array:
         """Visual input I: each area's share of the hand's pixels (n, 2) [px]; 0 when unseen."""
-        return self._summed(places, None) / max(len(places), 1)
+        return self._summed(self._cells(places), None) / max(len(places), 1)
 
     def mean_places(self, places: Array) -> Array:
         """Mean of the `places` (n, 2) [px] in each area, (rows, columns, 2); nan in empty ones."""
-        x, y = (self._summed(places, axis) for axis in places.T)
-        count = self._summed(places, None)[..., None]
+        cells = self._cells(places)
+        x, y = (self._summed(cells, axis) for axis in places.T)
+        count = self._summed(cells, None)[..., None]
         return np.where(count > 0, np.stack((x, y), axis=-1) / np.maximum(count, 1), np.nan)
 
     def inside(self, areas: Mask, places: Array) -> Mask:
@@ -95,11 +96,15 @@ class VisualField:
         near = np.linalg.norm(self.centres - place, axis=-1) < radius
         return np.asarray(near, dtype=np.float64)
 
-    def _summed(self, places: Array, weights: Array | None) -> Array:
-        """Sum of the weights of `places` (n, 2) [px] in each area; None: each weighs 1."""
+    def _cells(self, places: Array) -> NDArray[np.intp]:
+        """Which area of the framed field each place lies in, counted along the rows, (n,)."""
         rows, columns = self._framed(places)
+        return rows * (self.columns + 3) + columns
+
+    def _summed(self, cells: NDArray[np.intp], weights: Array | None) -> Array:
+        """Sum of the weights (n,) of what lies in each area; None: each weighs 1."""
         framed = (self.rows + 2, self.columns + 3)
-        sums = np.bincount(rows * framed[1] + columns, weights, framed[0] * framed[1])
+        sums = np.bincount(cells, weights, framed[0] * framed[1])
         return np.asarray(sums.reshape(framed)[1:-1, 1:-1])
 
     def _framed(self, places: Array) -> tuple[NDArray[np.intp], NDArray[np.intp]]:

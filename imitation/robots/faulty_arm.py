@@ -70,8 +70,8 @@ class SilentArm(FaultyArm):
         return super().read()
 
 
-class ArmInTrouble(FaultyArm):
-    """An arm one of whose motors says that it can do no more.
+class FaultyMotor(FaultyArm):
+    """An arm one of whose motors fails.
 
     Args:
         arm: What is spoilt.
@@ -83,7 +83,15 @@ class ArmInTrouble(FaultyArm):
 
     def __init__(self, arm: Arm, name: str, at: float, lasts: float | None, joint: int) -> None:
         super().__init__(arm, name, at, lasts)
-        self._number = place_of(joint, arm.body)
+        if joint > len(arm.body.joint_names):
+            raise ValueError(
+                f"fault.joint={joint}: {arm.body.name} has joints 1 to {len(arm.body.joint_names)}"
+            )
+        self._number = joint - 1
+
+
+class ArmInTrouble(FaultyMotor):
+    """An arm one of whose motors says that it can do no more."""
 
     def read(self) -> JointReading:
         """The same; it is an error while a motor is in trouble."""
@@ -93,7 +101,7 @@ class ArmInTrouble(FaultyArm):
         return super().read()
 
 
-class StuckArm(FaultyArm):
+class StuckArm(FaultyMotor):
     """An arm with a joint that does not move, or whose angle is sensed as it was.
 
     Args:
@@ -116,8 +124,7 @@ class StuckArm(FaultyArm):
         following: float,
         overdue: float,
     ) -> None:
-        super().__init__(arm, name, at, lasts)
-        self._number = place_of(joint, arm.body)
+        super().__init__(arm, name, at, lasts, joint)
         self._keeping_up = KeepingUp(arm.body.joint_names, following, overdue)
         self._sent = self._sound = np.zeros(len(arm.body.lower))  # [rad]
 
@@ -141,12 +148,3 @@ class StuckArm(FaultyArm):
             reading = replace(reading, posture=posture, velocity=velocity)
         self._keeping_up.check(np.abs(reading.posture - self._sent), self._now)
         return reading
-
-
-def place_of(joint: int, body: Body) -> int:
-    """Where the values of a joint, counted from 1, stand in a posture."""
-    if joint > len(body.joint_names):
-        raise ValueError(
-            f"fault.joint={joint}: {body.name} has joints 1 to {len(body.joint_names)}"
-        )
-    return joint - 1

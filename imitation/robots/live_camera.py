@@ -55,7 +55,7 @@ class LiveCamera:
     ) -> None:
         self._space, self._eye, self._device = space, np.asarray(eye), device
         self._develop = Development(space.size, reference, aspect, mirror, quality)
-        self._fit, self._lost = VisionWatch(stale, frozen, dark, lost), lost
+        self._fit = VisionWatch(stale, frozen, dark, lost)
         self._start_ns = 0  # when the run began, on the wall's clock
         self._watch = FrameWatch(device, self._develop, lost, latency)
 
@@ -67,7 +67,7 @@ class LiveCamera:
         """
         if not self._start_ns:
             self._start_ns = time.monotonic_ns() - time_ns
-        if not self._watch.wait_for_one_from(self._start_ns + time_ns, self._lost):
+        if not self._watch.wait_for_one_from(self._start_ns + time_ns, self._fit.lost):
             raise self._failed()
 
     def look(self, time_ns: int, gaze: Array | None) -> Shot:
@@ -103,6 +103,6 @@ class LiveCamera:
 
     def _failed(self) -> DeviceError:
         return DeviceError(
-            f"camera.device={self._device} delivered no frame for {self._lost:g} s (camera.lost); "
-            "is it still there, and does no other program use it?"
+            f"camera.device={self._device} delivered no frame for {self._fit.lost:g} s "
+            "(camera.lost); is it still there, and does no other program use it?"
         )

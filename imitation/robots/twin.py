@@ -25,9 +25,8 @@ CAMERA_FAULTS = {
     "tag_lost": "there is no tag on the hand",
     "two_tags": "a second thing looks like the tag",
 }
-GRAIN = (
-    2  # of its pixels: no two pictures of a real camera are equal, though nothing moves [0..255]
-)
+# Of its pixels [0..255]: no two pictures of a real camera are equal, though nothing moves.
+GRAIN = 2
 ATTENTION = 3.0  # how long the robot has rested when a demonstrator takes it to watch [s]
 
 

@@ -20,7 +20,7 @@ def mimic(
     dynamics: Dynamics,
     selection: Selection,
     duration: float,
-    turning: int = 0,
+    turning: int,
 ) -> Iterator[Sample]:
     """Bring the arm to where vision says the hand is, for `duration` [s] or to the film's end.
 
