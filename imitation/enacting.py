@@ -105,7 +105,7 @@ class Enactor:
 
     @property
     def _holding(self) -> bool:
-        return self.reflex.hand in (Hand.HOLDING, Hand.OPENING)
+        return self.reflex.shut or self.reflex.hand is Hand.OPENING
 
     def make_ready(self, target: Array) -> None:
         """A state is coming whose place is `target` (2,) [px]: be near until it is due."""
@@ -149,7 +149,7 @@ class Enactor:
     def act(self, seen: Observation) -> float | None:
         """What the hand does now: the opening that is wanted; None: as it is."""
         there = self.phase is Phase.REACHING and self.arrived
-        if there and self.last and self.reflex.hand is Hand.HOLDING:
+        if there and self.last and self.reflex.shut:
             return self.reflex.release(seen.time)
         return self.reflex.feel(seen.time, seen.proximity, seen.touching, there)
 

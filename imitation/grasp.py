@@ -12,6 +12,7 @@ class Hand(Enum):
     EMPTY = "empty"  # open, nothing held
     CLOSING = "closing"
     HOLDING = "holding"
+    MISSED = "closed on nothing"
     OPENING = "opening"
 
 
@@ -38,6 +39,11 @@ class GraspReflex:
         """Whether the fingers open or close, so that the arm had better wait."""
         return self.hand in (Hand.CLOSING, Hand.OPENING)
 
+    @property
+    def shut(self) -> bool:
+        """Whether the fingers have closed, on something or on nothing."""
+        return self.hand in (Hand.HOLDING, Hand.MISSED)
+
     def feel(self, time: float, proximity: float, touching: bool, arrived: bool) -> float | None:
         """The opening that is wanted; None: as it is.
 
@@ -56,7 +62,7 @@ class GraspReflex:
             if not touching:
                 self._touched = time
             if time - self._touched >= self.firm or time - self._since >= self.closing:
-                self.hand = Hand.HOLDING
+                self.hand = Hand.HOLDING if touching else Hand.MISSED
         elif self.hand is Hand.OPENING and time - self._since >= self.opening:
             self.hand = Hand.EMPTY
         return None

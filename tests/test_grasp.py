@@ -50,10 +50,12 @@ def test_a_touch_that_is_lost_does_not_count():
     assert one.hand is Hand.CLOSING
 
 
-def test_closing_on_nothing_ends():
+@pytest.mark.parametrize(("touching", "ends"), [(False, Hand.MISSED), (True, Hand.HOLDING)])
+def test_closing_ends_and_tells_whether_anything_is_held(touching, ends):
     one = grasping()
-    one.feel(1.3, NOTHING, False, arrived=False)
-    assert one.hand is Hand.HOLDING
+    one.feel(1.3, NOTHING, touching, arrived=False)
+    assert one.hand is ends
+    assert one.shut
 
 
 def test_what_was_let_go_is_grasped_again_only_after_it_was_out_of_reach():

@@ -8,7 +8,7 @@ import numpy as np
 from imitation.arrays import Array
 from imitation.deciding import drawn_by
 from imitation.dynamics import Dynamics, uniform_noise
-from imitation.grasp import CLOSED, OPEN, GraspReflex, Hand
+from imitation.grasp import CLOSED, OPEN, GraspReflex
 from imitation.perception import Perception
 from imitation.robot import Command, Robot
 from imitation.sample import Event, Sample
@@ -43,7 +43,7 @@ def explore(
         learned: The map.
         dynamics: Eqs. 1 and 2.
         reflex: Of the hand; it lets go at the end.
-        lifted: Joint offset while it holds something, (n_joints,) [rad].
+        lifted: Joint offset while its fingers are shut, (n_joints,) [rad].
         start: Where the arm begins, (n_joints,) [rad].
         wandering: How.
         rng: Draws the noise.
@@ -56,7 +56,7 @@ def explore(
         if steps % wandering.noise_steps == 0:
             noise = uniform_noise(rng, len(start), wandering.noise_level)
         known = learned.attractors(everywhere, seen.posture)
-        shift = lifted if reflex.hand is Hand.HOLDING else np.zeros_like(lifted)
+        shift = lifted if reflex.shut else np.zeros_like(lifted)
         attractors = Attractors(known.postures + shift, known.weights, known.index)
         decision = drawn_by(
             attractors, everywhere, seen.posture, dynamics, 1.0, wandering.noise_level, noise

@@ -153,6 +153,20 @@ def test_a_closed_hand_lifts_the_can_by_friction_and_an_open_one_lets_it_fall():
     assert hand.can[2] < 0.05
 
 
+@pytest.mark.parametrize("grip", [0.0, 0.5, 0.9])
+def test_an_arm_that_presses_on_a_can_forces_no_finger_beyond_its_stops(grip):
+    posture = hull_posture(*MIDDLE)
+    hand = Hand(with_can(posture, "object.radius=0.06", "object.height=0.06"))
+    hand.seen = hand.robot.reset(posture + np.array([0, 0.35, 0, 0, 0]))
+    hand.stay(grip, 1.0)
+    openings = []
+    for _ in range(40):
+        hand.step(posture - np.array([0, 0.15, 0, 0, 0]), grip)
+        openings.append(hand.seen.opening)
+    assert 0 <= min(openings) <= max(openings) <= 1
+    assert np.ptp(openings) > 0.05  # it did press
+
+
 def test_the_tag_is_seen_where_it_is_while_the_hand_holds_a_can():
     start, goal = hull_posture(*MIDDLE), hull_posture(*RIGHT)
     parts = with_can(start, "camera.noise_px=0")

@@ -140,6 +140,8 @@ class World:
         """Let `substeps` physics steps pass."""
         for _ in range(substeps):
             pybullet.stepSimulation(physicsClientId=self._client)
+            if self._gripper and self._can:
+                self._gripper.keep_within_stops()
 
     def joint_state(self) -> tuple[Array, Array]:
         """Posture [rad] and velocity [rad/s] of the arm's joints."""

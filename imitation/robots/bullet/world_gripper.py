@@ -87,6 +87,16 @@ class Gripper:
                 physicsClientId=self._client,
             )
 
+    def keep_within_stops(self) -> None:
+        """Put back a finger that was forced beyond its range."""
+        # The engine lets an arm that presses on something bend a joint's limit by a whole range.
+        states = pybullet.getJointStates(self._arm, self._joints, physicsClientId=self._client)
+        for joint, state, (closed, opened) in zip(self._joints, states, self._range, strict=True):
+            angle = state[0]
+            kept = min(max(angle, closed), opened)
+            if kept != angle:
+                pybullet.resetJointState(self._arm, joint, kept, physicsClientId=self._client)
+
     def opening(self) -> float:
         """How far it is open, 0 closed .. 1 open."""
         angle = pybullet.getJointState(self._arm, self._joints[0], physicsClientId=self._client)[0]
