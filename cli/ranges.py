@@ -133,10 +133,13 @@ RANGES: dict[str, dict[str, Any]] = {
         "value": ByteRange,
         "min_pixels": Count,
         "least_patch": Share,
+        "most": Share,
         "length": Positive | None,
         "threshold": Annotated[int, Within(ge=0, le=255)],
+        "apart": NotNegative,
         "blur": Positive,
         "keep": NotNegative,
+        "margin": NotNegative,
     },
     "robot": {
         "base": Triple,

@@ -43,12 +43,20 @@ class Perception:
         Args:
             observation: What the robot senses.
             attended: Areas that a hand counts in, (rows, columns): of two hands only one may be
-                of interest. None: anywhere. The visual input is that of the whole image anyway.
+                of interest. None: around the area that shows most, because between two hands
+                there is none. The visual input is that of the whole image anyway.
         """
         pixels = self.detector.hand_in(observation)
         places = self.space.to_visual_space(pixels, observation.frame_gaze)
         places = places[np.isfinite(places[:, 0])] + observation.place_noise
-        counting = places if attended is None else places[self.field.inside(attended, places)]
-        hand = counting.sum(axis=0) / len(counting) if len(counting) else None
         activity, means = self.field.activity(places), self.field.mean_places(places)
+        if attended is None:
+            counting = places[~self.field.inside(~self._around_most(activity), places)]
+        else:
+            counting = places[self.field.inside(attended, places)]
+        hand = counting.sum(axis=0) / len(counting) if len(counting) else None
         return Percept(observation.frame_time_ns, hand, activity, means, places)
+
+    def _around_most(self, activity: Array) -> Mask:
+        row, column = np.unravel_index(activity.argmax(), activity.shape)
+        return self.field.around((int(row), int(column)))

@@ -1,5 +1,6 @@
 """What of a frame is the hand: all that has its colour, or all that moves; own or other's."""
 
+from collections import deque
 from dataclasses import dataclass, field
 
 import cv2
@@ -67,21 +68,25 @@ class HandDetector(ColourDetector):
 
     Args:
         least_patch: A connected patch smaller than this share of the largest is a speck [0..1].
+        most: One larger than this share of the picture is no hand, but a wall or a table [0..1].
         length: Of a hand. Of a patch that comes in by an edge of the picture, what lies farther
             than this from its other end is forearm [px]; None: forearms count.
     """
 
     least_patch: float
+    most: float
     length: float | None
 
     def mask(self, frame: Image) -> Mask:
-        """Pixels of the hand in `frame`, without specks and forearms, (height, width)."""
+        """Pixels of the hand in `frame`, without specks, walls and forearms, (height, width)."""
         found = super().mask(frame)
         count, patches, told, _ = cv2.connectedComponentsWithStats(found.view(np.uint8))
         sizes = told[:, cv2.CC_STAT_AREA]
+        sizes[0] = 0  # all that was not found
+        sizes[sizes > self.most * found.size] = 0
         hands = np.zeros_like(found)
-        for number in range(1, count):  # 0 is all that was not found
-            if sizes[number] >= self.least_patch * sizes[1:].max():
+        for number in range(1, count):
+            if sizes[number] and sizes[number] >= self.least_patch * sizes.max():
                 hands |= self._hand_of(patches == number)
         return hands
 
@@ -98,21 +103,25 @@ class HandDetector(ColourDetector):
 
 @dataclass
 class MovementDetector:
-    """Finds what changed since the frame before; what has just come to rest stays where it is.
+    """Finds what changed of late; what has just come to rest stays where it is.
 
     Args:
         threshold: A pixel moves when a colour of it changes by more than this [0..255].
+        apart: Within so long: of a slow movement, one frame shows little to the next [s].
         blur: Pictures are smoothed by this before, so that their noise does not move [px].
         min_pixels: Fewer moving pixels than this are no hand.
         keep: A hand that rests is seen where it moved last for so long [s].
+        margin: Unless that was nearer than this to an edge of the picture: it has left [px].
     """
 
     threshold: int
+    apart: float
     blur: float
     min_pixels: int
     keep: float
+    margin: float
     _before: Observation | None = field(default=None, init=False)
-    _smooth: Image | None = field(default=None, init=False)  # frame before
+    _smooth: deque[tuple[int, Image]] = field(default_factory=deque, init=False)  # time [ns], frame
     _moved: Array = field(default_factory=lambda: np.empty((0, 2)), init=False)  # last [px]
     _moved_ns: int = field(default=0, init=False)
 
@@ -120,21 +129,32 @@ class MovementDetector:
         """Centres of the hand's pixels, (n, 2) [px]; call with every observation, in order."""
         before, self._before = self._before, seen
         if before is None or seen.begins or (seen.frame_gaze != before.frame_gaze).any():
-            self._smooth, self._moved = None, np.empty((0, 2))  # all would have moved
-        if before is None or self._smooth is None or seen.frame_time_ns != before.frame_time_ns:
+            self._smooth.clear()  # all would have moved
+            self._moved = np.empty((0, 2))
+        if not self._smooth or before is None or seen.frame_time_ns != before.frame_time_ns:
             self._compare(seen)
         resting_ns = seen.frame_time_ns - self._moved_ns
-        return self._moved if resting_ns <= self.keep * SECOND else np.empty((0, 2))
+        if resting_ns > self.keep * SECOND or (resting_ns and self._has_left(seen.frame)):
+            return np.empty((0, 2))
+        return self._moved
 
     def _compare(self, seen: Observation) -> None:
-        smooth, before = cv2.GaussianBlur(seen.frame, (0, 0), self.blur), self._smooth
-        self._smooth = np.asarray(smooth, dtype=np.uint8)
-        if before is None:
-            return
-        moving = cv2.absdiff(self._smooth, before).max(axis=2) > self.threshold
+        smooth = np.asarray(cv2.GaussianBlur(seen.frame, (0, 0), self.blur), dtype=np.uint8)
+        earlier, now = self._smooth, seen.frame_time_ns
+        earlier.append((now, smooth))
+        while len(earlier) > 2 and now - earlier[1][0] >= self.apart * SECOND:
+            earlier.popleft()
+        moving = cv2.absdiff(smooth, earlier[0][1]).max(axis=2) > self.threshold
         places = _centres(moving, self.min_pixels)
         if len(places):
-            self._moved, self._moved_ns = places, seen.frame_time_ns
+            self._moved, self._moved_ns = places, now
+
+    def _has_left(self, frame: Image) -> bool:
+        """Whether the last movement was at an edge of the picture."""
+        if not len(self._moved):
+            return True
+        middle, size = self._moved.mean(axis=0), np.array(frame.shape[1::-1])
+        return bool(np.minimum(middle, size - middle).min() < self.margin)
 
 
 def _centres(mask: Mask, min_pixels: int) -> Array:

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from imitation.arrays import Array
-from imitation.visual_field import Area
+from imitation.visual_field import Area, VisualField
 
 
 @dataclass(frozen=True)
@@ -42,8 +42,8 @@ class VisualStates:
     on whichever side of a border it is seen, makes no second one.
     """
 
-    def __init__(self, resting: Resting) -> None:
-        self.resting = resting
+    def __init__(self, resting: Resting, field: VisualField) -> None:
+        self.resting, self.field = resting, field
         self.states: list[VisualState] = []
         self._seen: deque[tuple[float, Array]] = deque()  # time [s] and place [px], for `dwell`
         self._rested: list[Array] = []  # places of the newest state's rest, (2,) [px]
@@ -63,7 +63,7 @@ class VisualStates:
         if self._seen and time - self._seen[-1][0] > self.resting.lost:
             self._seen.clear()
             self._area = None
-        winner = self._winner(visual_input)
+        winner = self._winner(visual_input, hand)
         if winner != self._area:
             self._area, self._since = winner, time
         self._seen.append((time, hand))
@@ -71,11 +71,13 @@ class VisualStates:
             self._seen.popleft()
         return self._new_state(time)
 
-    def _winner(self, visual_input: Array) -> Area:
+    def _winner(self, visual_input: Array, hand: Array) -> Area:
         row, column = np.unravel_index(visual_input.argmax(), visual_input.shape)
         strongest = int(row), int(column)
         if self._area is None:
             return strongest
+        if np.linalg.norm(hand - self.field.into(hand, self._area)) > self.resting.still:
+            return strongest  # what is seen is large, or another hand: its place is elsewhere
         first, second = visual_input[strongest], visual_input[self._area]
         wins = first - second > self.resting.hysteresis * (first + second)
         return strongest if wins else self._area

@@ -94,7 +94,7 @@ def patches(*sizes: int) -> Image:
 
 def test_specks_beside_a_large_patch_are_no_hand():
     detector = HandDetector(
-        (170, 10), (100, 255), (80, 255), min_pixels=1, least_patch=0.3, length=None
+        (170, 10), (100, 255), (80, 255), min_pixels=1, least_patch=0.3, most=0.35, length=None
     )
     assert detector.mask(patches(10, 5, 8)).sum() == 10 * 10 + 8 * 8
     assert detector.mask(patches(5)).sum() == 25
@@ -106,13 +106,26 @@ def test_of_an_arm_that_reaches_in_only_the_hand_is_seen():
     frame = np.full((120, 160, 3), GREY, dtype=np.uint8)
     frame[50:60, 60:] = RED  # an arm from the right edge
     frame[20:30, 20:80] = RED  # another that comes in by no edge
-    detector = HandDetector((170, 10), (100, 255), (80, 255), 1, least_patch=0.3, length=30)
+    detector = HandDetector(
+        (170, 10), (100, 255), (80, 255), 1, least_patch=0.3, most=0.35, length=30
+    )
     found = np.argwhere(detector.mask(frame))
     arm, whole = found[found[:, 0] > 40], found[found[:, 0] < 40]
     assert arm[:, 1].min() == 60 and arm[:, 1].max() == pytest.approx(90, abs=1)
     assert len(whole) == 10 * 60
     all_counts = dataclasses.replace(detector, length=None)
     assert all_counts.mask(frame).sum() == 10 * 100 + 10 * 60
+
+
+def test_a_table_of_the_hands_colour_is_no_hand_and_hides_none_that_lies_elsewhere():
+    detector = HandDetector(
+        (170, 10), (100, 255), (80, 255), 1, least_patch=0.3, most=0.35, length=None
+    )
+    frame = np.full((120, 160, 3), GREY, dtype=np.uint8)
+    frame[70:] = RED
+    assert not detector.mask(frame).any()
+    frame[20:30, 20:40] = RED
+    assert detector.hand_pixels(frame).mean(axis=0) == pytest.approx((30, 25))
 
 
 def skin_detector() -> HandDetector:
@@ -164,8 +177,8 @@ def seen_at(step: int, x: float, gaze: float = 0.0, frame_step: int | None = Non
     )  # fmt: skip
 
 
-def movement(keep: float = 0.25) -> MovementDetector:
-    return MovementDetector(threshold=20, blur=0.5, min_pixels=10, keep=keep)
+def movement(keep: float = 0.25, apart: float = 0.0, margin: float = 0.0) -> MovementDetector:
+    return MovementDetector(20, apart, blur=0.5, min_pixels=10, keep=keep, margin=margin)
 
 
 def test_what_moves_is_the_hand_and_what_rests_is_not():
@@ -180,6 +193,19 @@ def test_a_hand_that_comes_to_rest_is_seen_there_for_a_while():
     detector = movement(keep=0.25)
     seen = [len(detector.hand_in(seen_at(step, 20 + 4 * min(step, 1)))) for step in range(6)]
     assert [count > 0 for count in seen] == [False, True, True, True, False, False]
+
+
+def test_a_slow_hand_is_seen_over_several_frames():
+    slowly = [seen_at(step, 20 + step) for step in range(6)]  # a row of 10 px a frame
+    few, more = (MovementDetector(20, apart, 0.5, 50, 0.0, 0.0) for apart in (0.0, 0.3))
+    assert not any(len(few.hand_in(seen)) for seen in slowly)
+    assert [len(more.hand_in(seen)) > 0 for seen in slowly] == [False] * 3 + [True] * 3
+
+
+def test_a_hand_that_leaves_the_picture_is_seen_there_no_more():
+    detector = movement(keep=0.25, margin=15)
+    seen = [len(detector.hand_in(seen_at(step, 30 + 10 * min(step, 2)))) for step in range(5)]
+    assert [count > 0 for count in seen] == [False, True, True, False, False]
 
 
 def test_a_frame_that_is_delivered_again_is_not_a_hand_at_rest():

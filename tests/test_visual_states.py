@@ -41,7 +41,7 @@ def action(slower=1.0):
 
 def watched(*parts, noise=0.5, seed=0, resting=RESTING):
     """The states found in what is seen of a hand whose place is told with `noise` [px]."""
-    rng, states = np.random.default_rng(seed), VisualStates(resting)
+    rng, states = np.random.default_rng(seed), VisualStates(resting, FIELD)
     for step, hand in enumerate(np.concatenate(parts)):
         seen = None if np.isnan(hand).any() else hand + rng.normal(0, noise, 2)
         pixels = np.zeros((0, 2)) if seen is None else DISC + seen
@@ -106,13 +106,21 @@ def test_a_hand_lost_for_a_moment_goes_on_resting_and_one_that_left_does_not():
 
 
 def test_a_state_is_told_as_soon_as_the_hand_has_rested_long_enough():
-    states = VisualStates(RESTING)
+    states = VisualStates(RESTING, FIELD)
     told = [
         step * PERIOD
         for step, hand in enumerate(rest(BY, 2))
         if states.see(step * PERIOD, FIELD.activity(DISC + hand), hand)
     ]
     assert told == [pytest.approx(RESTING.dwell, abs=PERIOD)]
+
+
+def test_a_state_lies_in_its_area_however_far_what_is_seen_spreads():
+    states, wide = VisualStates(RESTING, FIELD), np.zeros(FIELD.shape)
+    for step, (there, here) in enumerate([(0.6, 0.4)] * 10 + [(0.4, 0.6)] * 20):
+        wide[2, 2], wide[2, 1] = there, here
+        states.see(step * PERIOD, wide, np.array((55, 75) if here > there else (85, 75)))
+    assert [state.area for state in states.states] == [(2, 1)]
 
 
 def test_no_hand_is_no_state():
