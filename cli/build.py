@@ -111,6 +111,11 @@ class Bench:
             )
         return make(fault, **{name: part})
 
+    @property
+    def real(self) -> bool:
+        """Whether there is a device, or was to be one: it may not have been found."""
+        return "robot" not in self.__dict__ or self.robot.live
+
     def close(self) -> None:
         """Stop the arm and release the devices that were made; harmless when repeated."""
         for made in ("robot", "arm", "camera"):

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator, Mapping
 from inspect import Parameter, signature
-from pydoc import locate
+from pkgutil import resolve_name
 from typing import Any, get_type_hints
 
 from omegaconf import DictConfig, OmegaConf
@@ -105,7 +105,10 @@ def check_target(node: Target, path: tuple[str, ...], cfg: Config) -> None:
     name = given.pop("_target_", None)
     if name not in known_targets():  # nothing that a file names is called unless we know it
         raise UserError(f"{dotted}.{not_known(str(name))}")
-    target: Any = locate(str(name))
+    try:  # pydoc.locate would take a Ctrl-C for an error of the module
+        target: Any = resolve_name(str(name))
+    except (ImportError, AttributeError) as error:
+        raise UserError(f"{dotted}._target_={name}: {error}") from None
     if not callable(target):
         raise UserError(f"{dotted}._target_={name}: nothing of that name can be called")
     parameters = signature(target).parameters

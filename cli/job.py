@@ -18,8 +18,9 @@ from cli.check import checked
 from cli.errors import BAD_INPUT, DEVICE, DONE, INTERRUPTED, NOT_TRUE, is_refusal, say
 from cli.folder import make_run_folder, unmake_run_folder
 from cli.interruption import STOP, sigterm_like_ctrl_c
-from cli.report import show
+from cli.report import show, show_ended
 from cli.run import Outcome, Run
+from cli.without_device import instead
 from imitation.device import DeviceError
 from imitation.recording.recorder import RecorderError
 
@@ -63,17 +64,23 @@ def explain(error: Exception) -> int:
     if is_refusal(error):
         _say(str(error))
         return BAD_INPUT
-    if isinstance(error, RecorderError | DeviceError):
-        _say(str(error))
-        return DEVICE
-    if isinstance(error, OSError) and error.errno in DISK:
-        _say(f"{error.filename or 'the disk'} cannot be written: {error.strerror}")
+    if failed := failed_device(error):
+        _say(failed)
         return DEVICE
     if isinstance(error, OSError) and error.errno in PLACE:
         _say(f"{str(error.filename)[:200]}: {error.strerror}")
         return BAD_INPUT
     traceback.print_exception(error)  # a bug of this program, nothing a user could mend
     return NOT_TRUE
+
+
+def failed_device(error: Exception) -> str | None:
+    """What a device, the recorder or the disk did, if it was one of them."""
+    if isinstance(error, RecorderError | DeviceError):
+        return str(error)
+    if isinstance(error, OSError) and error.errno in DISK:
+        return f"{error.filename or 'the disk'} cannot be written: {error.strerror}"
+    return None
 
 
 def _run(command: str, cfg: Config, work: Work) -> int:
@@ -86,8 +93,9 @@ def _run(command: str, cfg: Config, work: Work) -> int:
         if not run.status:
             _try_to_write_metrics(run, "interrupted")
         run.log.info("interrupted")
-        _say(f"what was recorded until then is in {run.folder}")
-        raise
+        _say("interrupted")
+        show_ended(run.folder)
+        return INTERRUPTED
     except Exception as error:
         if not run.status:
             _try_to_write_metrics(run, "failed")
@@ -95,7 +103,13 @@ def _run(command: str, cfg: Config, work: Work) -> int:
         if is_refusal(error) and not run.steps:
             run.close()
             unmake_run_folder(run.folder)  # nothing ran: the same out= may be typed again
-        raise
+        failed = failed_device(error)
+        if not failed:
+            raise
+        absent = isinstance(error, DeviceError) and not run.steps and run.bench.real
+        _say(f"{failed}; {instead(cfg['robot']['name'], typed)}" if absent else failed)
+        show_ended(run.folder)
+        return DEVICE
     finally:
         run.close()
 

@@ -3,7 +3,7 @@
 import os
 from collections.abc import Sequence
 from pathlib import Path
-from pydoc import locate
+from pkgutil import resolve_name
 from typing import Any
 
 import hydra
@@ -35,7 +35,7 @@ def draw(cfg: Config) -> int:
         raise UserError(f"{name} is drawn with its own settings; leave name= and figure= out")
     folder = writable(Path(str(cfg["out"])))
     _, function = FIGURES[name]
-    drawing: Any = locate(function)
+    drawing: Any = resolve_name(function)
     count = cfg["demo_seeds"] if demo else cfg["seeds"]
     seeds = range(cfg["first_seed"], cfg["first_seed"] + count)
     figure, claims = drawing(seeds, made(cfg["figure"][name]))

@@ -118,11 +118,24 @@ def test_a_fault_that_is_soon_over_ends_as_the_table_says(imitate, learned, faul
 
 def test_a_device_that_fails_before_the_first_step_is_told_of_in_the_recording(imitate):
     words = ("robot=ideal", "fault=silence", "fault.at=0", "out=run")
-    assert imitate("learn-map", *words).exit_code == 3
+    result = imitate("learn-map", *words)
+    assert result.exit_code == 3
+    assert "imitate inspect run" in result.stdout
+    assert "imitate doctor" not in result.stderr  # nothing is wrong with this machine
     assert "does not answer" in events(Recording.open(imitate.folder / "run"))["device"][0]
     assert verify(imitate.folder / "run") == 0
     assert imitate("inspect", "run").exit_code == 0
     assert imitate("explain", "run", "--at", "0").exit_code == 2
+
+
+def test_a_device_that_is_not_there_is_followed_by_what_needs_none(imitate):
+    words = ("robot=so101", "robot.arm.address=nowhere", "out=run")
+    result = imitate("learn-map", *words)
+    assert result.exit_code == 3
+    assert len(result.stderr.splitlines()) == 1
+    assert "imitate doctor robot=so101 robot.arm.address=nowhere;" in result.stderr
+    assert "robot=so101_sim and imitate twin robot=so101 need no device" in result.stderr
+    assert "run/  config.yaml log.txt" in result.stdout
 
 
 def test_a_tag_that_is_soon_back_is_told_of(imitate, learned):
