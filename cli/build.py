@@ -148,7 +148,7 @@ class Bench:
         """What no command may make a body do."""
         node = self.cfg["robot"]
         shared = {"urdf": node["arm"]["urdf"], "base": node["arm"]["base"]}
-        return guard_of(body, **shared, **node["guard"])
+        return guard_of(body, **shared, head=node["head"]["eye"], **node["guard"])
 
     @cached_property
     def thing(self) -> Can | None:

@@ -94,7 +94,7 @@ class Field(Section):
 
 
 class GuardPoint(Section):
-    """One of `robot.guard.points`."""
+    """One of `robot.guard.points` or `.trunk`."""
 
     link: str
     at: Triple
@@ -107,9 +107,11 @@ class Guard(Section):
     margin: NotNegative
     least_clearance: NotNegative
     points: Annotated[list[GuardPoint], Within(min_length=1)]
+    trunk: list[GuardPoint]
     table_height: float
     base_radius: NotNegative
     base_height: NotNegative
+    head_radius: NotNegative
 
 
 class Head(Section):

@@ -166,6 +166,7 @@ RANGES: dict[str, dict[str, Any]] = {
         "rate": Annotated[int, Within(ge=1, le=10_000)],
         "iterations": Annotated[int, Within(ge=1, le=10_000)],
         "stiffness": Annotated[float, Within(ge=0, le=1_000)],
+        "behind": Positive,
     },
     "demonstrator": {
         "centre": Pair,

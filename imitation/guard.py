@@ -16,7 +16,7 @@ class Surroundings(Protocol):
     """Knows how near the arm would be to what it must not touch."""
 
     def clearance(self, postures: Array) -> Array:
-        """Smallest distance of the arm to table and own body (n,) [m], at `postures` (n, n_joints).
+        """Smallest distance of the arm to all that (n,) [m], at `postures` (n, n_joints).
 
         Postures are in radians.
         """

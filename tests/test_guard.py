@@ -8,11 +8,11 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays
+from on_bench import bench
 
 from imitation.arrays import Array
 from imitation.guard import Guard
-from imitation.robots.bullet.world import find_urdf
-from imitation.robots.kinematic_chain import KinematicChain, TableAndBase
+from imitation.robots.around_arm import AroundArm
 
 PERIOD = 0.04  # [s]
 JOINTS = 5
@@ -229,27 +229,18 @@ def test_joints_that_brake_at_different_rates_do_not_dip_into_the_wall_on_their_
 
 
 @pytest.fixture(scope="module")
-def katana() -> TableAndBase:
-    names = ("1_pan", "2_lift", "3_lift", "4_lift", "5_wrist_roll")
-    points = [
-        ("katana_motor3_lift_link", np.zeros(3)),
-        ("katana_motor4_lift_link", np.zeros(3)),
-        ("katana_gripper_tool_frame", np.zeros(3)),
-    ]
-    chain = KinematicChain(
-        find_urdf("katana_6m180.urdf"),
-        tuple(f"katana_motor{name}_joint" for name in names),
-        points,
-        np.zeros(3),
-    )
-    return TableAndBase(chain, np.array([0.04, 0.04, 0.02]), 0.0, np.zeros(2), 0.06, 0.15)
+def katana() -> AroundArm:
+    parts = bench("learn-map", "robot=ideal")
+    around = parts.guard(parts.body).surroundings
+    assert isinstance(around, AroundArm)
+    return around
 
 
 # What is no number arrives while only braking in proportion keeps clear.
 @example([(np.array([0.0, 0.0, -1.0, -1.0, 0.0]), 9), (np.full(JOINTS, np.inf), 4)])
 @settings(max_examples=40, deadline=None)
 @given(wishes)
-def test_whatever_is_asked_the_katana_keeps_clear_of_table_and_base(katana, wanted):
+def test_whatever_is_asked_the_katana_keeps_clear_of_table_trunk_and_head(katana, wanted):
     guard = replace(GUARD, surroundings=katana, least_clearance=0.02)
     home = np.array([0.28, 1.24, -1.49, 0.85, 0.0])
     assert katana.clearance(home[None]) > 0.02

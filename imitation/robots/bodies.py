@@ -8,6 +8,7 @@ import numpy as np
 from imitation.gaze import VisualSpace
 from imitation.guard import Guard
 from imitation.robot import Body
+from imitation.robots.around_arm import AroundArm
 from imitation.robots.bullet.arm import BulletArm
 from imitation.robots.bullet.world import Mark, World, find_urdf
 from imitation.robots.bullet.world_can import Can
@@ -15,7 +16,7 @@ from imitation.robots.bullet.world_gripper import Fingers
 from imitation.robots.bullet.world_table import Table
 from imitation.robots.demonstrators import Demonstrator
 from imitation.robots.ideal import IdealArm, pixel
-from imitation.robots.kinematic_chain import KinematicChain, TableAndBase
+from imitation.robots.kinematic_chain import KinematicChain, read_joints
 from imitation.robots.simulated_camera import Scene, SimulatedCamera
 
 Numbers = Sequence[float]
@@ -62,6 +63,7 @@ def bullet_arm(
     rate: int,
     iterations: int,
     stiffness: float,
+    behind: float,
     period: float,
     thing: Can | None,
 ) -> BulletArm:
@@ -79,7 +81,8 @@ def bullet_arm(
         force=tuple(force),
         can=thing,
     )
-    return BulletArm(world, body_of(name, urdf, joints, base, speed, acceleration), stiffness)
+    body = body_of(name, urdf, joints, base, speed, acceleration)
+    return BulletArm(world, body, stiffness, behind)
 
 
 def refuse_part_of_a_substep(period: float, rate: int) -> None:
@@ -132,25 +135,37 @@ def guard_of(
     least_clearance: float,
     urdf: str,
     base: Numbers,
+    head: Numbers,
     points: Sequence[Mapping[str, Any]],
+    trunk: Sequence[Mapping[str, Any]],
     table_height: float,
     base_radius: float,
     base_height: float,
+    head_radius: float,
 ) -> Guard:
-    """The guard of an arm over a table; `points` are {link, at [m], radius [m]} along the arm."""
+    """The guard of an arm over a table, below a camera at `head` (3,) [m].
+
+    `points` along the arm and of its `trunk` are {link, at [m], radius [m]}; those of links that
+    a joint joins need not keep apart.
+    """
     if np.any(2 * margin >= body.upper - body.lower):
         raise ValueError(f"robot.guard.margin={margin:g} rad leaves a joint no room to move")
-    followed = [(str(point["link"]), np.asarray(point["at"], dtype=float)) for point in points]
-    chain = KinematicChain(
-        find_urdf(urdf), body.joint_names, followed, np.asarray(base, dtype=float)
-    )
-    around = TableAndBase(
-        chain=chain,
+    path, both = find_urdf(urdf), (*points, *trunk)
+    followed = [(str(point["link"]), np.asarray(point["at"], dtype=float)) for point in both]
+    joined = {(joint.parent, joint.child) for joint in read_joints(path).values()}
+    joined |= {(child, parent) for parent, child in joined}
+    ways = [[(a["link"], b["link"]) for b in trunk] for a in points]
+    around = AroundArm(
+        chain=KinematicChain(path, body.joint_names, followed, np.asarray(base, dtype=float)),
         radii=np.array([float(point["radius"]) for point in points]),
+        trunk_radii=np.array([float(point["radius"]) for point in trunk]),
+        apart=np.array([[a != b and (a, b) not in joined for a, b in row] for row in ways]),
         table_height=table_height,
         base=np.asarray(base[:2]),
         base_radius=base_radius,
         base_height=base_height,
+        head=np.asarray(head),
+        head_radius=head_radius,
     )
     return Guard(
         lower=body.lower,

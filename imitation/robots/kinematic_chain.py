@@ -148,37 +148,3 @@ class KinematicChain:
             np.matmul(links[parent], step, out=links[number])
         places = (links[self._carriers] @ self._points)[..., :3, 0].swapaxes(0, 1)
         return np.asarray(places.reshape((*posture.shape[:-1], len(self._points), 3)))
-
-
-@dataclass(frozen=True)
-class TableAndBase:
-    """How near the arm is to the table under it and to its own base.
-
-    Args:
-        chain: Follows the arm's guarded points.
-        radii: Size of the arm around each point, (n_points,) [m].
-        table_height: Height of the table's top [m].
-        base: Centre of the arm's base on the ground, x and y (2,) [m].
-        base_radius: Radius of the cylinder around the base [m].
-        base_height: Its height [m].
-    """
-
-    chain: KinematicChain
-    radii: Array
-    table_height: float
-    base: Array
-    base_radius: float
-    base_height: float
-
-    def clearance(self, postures: Array) -> Array:
-        """Smallest distance of a guarded point's surface to table or base (n,) [m].
-
-        Args:
-            postures: (n, n_joints) [rad].
-        """
-        points = self.chain.positions(postures)
-        height = points[..., 2] - self.radii
-        above, over = height - self.table_height, height - self.base_height
-        away = np.hypot(points[..., 0] - self.base[0], points[..., 1] - self.base[1])
-        beside = away - self.base_radius - self.radii
-        return np.asarray(np.minimum(above, np.maximum(beside, over)).min(axis=-1))

@@ -4,13 +4,11 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from hypothesis.extra import numpy as arrays
 
 from imitation.robots.bullet.world import Mark, World, find_urdf
 from imitation.robots.bullet.world_table import Table
 from imitation.robots.kinematic_chain import (
     KinematicChain,
-    TableAndBase,
     read_joints,
     rotation_about,
     rotation_of_rpy,
@@ -130,38 +128,3 @@ def test_the_katanas_hand_is_where_the_engine_puts_it(world, seed):
     posture = np.random.default_rng(seed).uniform(lower, upper)
     world.rebuild(posture, opening=1.0)
     assert chain.positions(posture)[0] == pytest.approx(world.mark_position(), abs=1e-5)
-
-
-@pytest.fixture
-def surroundings(urdf):
-    chain = KinematicChain(urdf, ("shoulder", "elbow"), [("hand", np.zeros(3))], np.zeros(3))
-    return TableAndBase(
-        chain,
-        radii=np.array([0.05]),
-        table_height=0.1,
-        base=np.zeros(2),
-        base_radius=0.2,
-        base_height=0.6,
-    )
-
-
-def test_a_stretched_arm_is_as_near_to_the_base_as_its_hand_is_beside_it(surroundings):
-    assert surroundings.clearance(np.zeros((1, 2))) == pytest.approx([0.5 - 0.2 - 0.05])
-
-
-def test_a_folded_arm_is_in_its_base(surroundings):
-    folded = np.array([[0.0, np.pi]])  # the hand 0.1 m from the axis and 0.1 m below the base's top
-    assert surroundings.clearance(folded) == pytest.approx([-0.15])
-
-
-@given(arrays.arrays(np.float64, (4, 2), elements=angles))
-def test_clearance_is_at_most_the_height_over_the_table(postures):
-    chain = KinematicChain(
-        find_urdf("katana_6m180.urdf"),
-        KATANA[1:3],
-        [("katana_gripper_tool_frame", np.zeros(3)), ("katana_motor4_lift_link", np.zeros(3))],
-        np.zeros(3),
-    )
-    around = TableAndBase(chain, np.array([0.01, 0.04]), 0.0, np.zeros(2), 0.06, 0.15)
-    heights = chain.positions(postures)[..., 2] - around.radii
-    assert (around.clearance(postures) <= heights.min(axis=1) + 1e-12).all()

@@ -16,12 +16,15 @@ class BulletArm:
         body: Its joints and limits.
         stiffness: How fast the arm is pulled back to where its commands should have brought it
             [1/s]; the motors of the engine give way to gravity without it.
+        behind: How far an arm that is blocked falls behind where its commands lead [rad]; it has
+            no more than that to make up for when it is free again.
     """
 
     live = False
 
-    def __init__(self, world: World, body: Body, stiffness: float) -> None:
-        self.world, self.body, self._stiffness = world, body, stiffness
+    def __init__(self, world: World, body: Body, stiffness: float, behind: float) -> None:
+        self.world, self.body = world, body
+        self._stiffness, self._behind = stiffness, behind
         self.scene = BulletScene(world)
         self._expected = np.zeros(len(body.lower))  # where the commands lead [rad]
         self._posture = self._velocity = self._expected  # as the joints are [rad], [rad/s]
@@ -40,12 +43,14 @@ class BulletArm:
         if not velocity.any():
             self.world.hold(self._expected)
         else:
-            self.world.drive(velocity + self._stiffness * (self._expected - self._posture))
+            returning = self._stiffness * (self._expected - self._posture)
+            self.world.drive(np.clip(velocity + returning, -self.body.speed, self.body.speed))
         if grip is not None:
             self.world.grip(grip)
         self.world.advance(substeps)
-        self._expected = self._expected + velocity * period
         self._sense()
+        lead = self._expected + velocity * period
+        self._expected = np.clip(lead, self._posture - self._behind, self._posture + self._behind)
         return velocity
 
     def read(self) -> JointReading:
