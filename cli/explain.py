@@ -32,6 +32,8 @@ def explain(run: Path, at: float) -> int:
     if not np.isfinite(at) or at < 0:
         raise UserError(f"--at {at}: give a time in seconds from the start of the run, 0 or later")
     recording = Recording.open(run)
+    if "/camera/used" not in recording.topics:
+        raise UserError(f"{run} holds no step: it ended before its first one, log.txt says why")
     with anew(recording) as decided:
         dynamics = decided.bench.dynamics
     when = moment(steps_told(recording), round(at * SECOND))

@@ -49,10 +49,18 @@ def moment(steps: Iterable[StepTold], time_ns: int) -> Moment:
         found = Moment(number, told, episode, episode_ns, reasons)
     else:
         if found is not None and time_ns > last_ns + SECOND:
-            raise ValueError(f"the run ends at {last_ns / SECOND:.2f} s; type --at an earlier time")
+            raise ValueError(_no_step(time_ns, "ends", last_ns))
     if found is None:
-        raise ValueError(f"no step at {time_ns / SECOND:g} s; times count from the run's start, 0")
+        raise ValueError(_no_step(time_ns, "begins", last_ns))
     return found
+
+
+def _no_step(asked_ns: int, doing: str, nearest_ns: int) -> str:
+    # Rounded up: the first step is not yet under way before it.
+    nearest = f"{np.ceil(nearest_ns / SECOND * 100) / 100:.2f}"
+    return (
+        f"no step at {asked_ns / SECOND:g} s: the run {doing} at {nearest} s; type --at {nearest}"
+    )
 
 
 @dataclass(frozen=True)

@@ -1,5 +1,7 @@
 """Why the arm moved is said in words, with the numbers of the recording."""
 
+import itertools
+
 import numpy as np
 import pytest
 
@@ -82,9 +84,15 @@ def test_babbling_is_explained(imitate, learned):
 
 
 @pytest.mark.parametrize(
-    ("at", "told"), [("99", "the run ends at"), ("-1", "0 or later"), ("nan", "0 or later")]
+    ("at", "told"), [("99", "type --at 2.08"), ("-1", "0 or later"), ("nan", "0 or later")]
 )
 def test_a_time_outside_the_run_is_one_line(imitate, run, at, told):
     result = imitate("explain", str(run), "--at", at)
     assert result.exit_code == 2
     assert told in result.stderr and len(result.stderr.splitlines()) == 1
+
+
+def test_before_the_first_step_the_nearest_time_is_told(run):
+    later = itertools.islice(steps_told(Recording.open(run)), 3, None)
+    with pytest.raises(ValueError, match=r"begins at 0.12 s; type --at 0.12"):
+        moment(later, 0)

@@ -125,7 +125,8 @@ def test_a_device_that_fails_before_the_first_step_is_told_of_in_the_recording(i
     assert "does not answer" in events(Recording.open(imitate.folder / "run"))["device"][0]
     assert verify(imitate.folder / "run") == 0
     assert imitate("inspect", "run").exit_code == 0
-    assert imitate("explain", "run", "--at", "0").exit_code == 2
+    explained = imitate("explain", "run", "--at", "0")
+    assert explained.exit_code == 2 and "holds no step" in explained.stderr
 
 
 def test_a_device_that_is_not_there_is_followed_by_what_needs_none(imitate):
