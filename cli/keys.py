@@ -23,10 +23,15 @@ def groups() -> dict[str, list[str]]:
 
 
 def groups_of(command: str) -> dict[str, list[str]]:
-    """The groups that a command's configuration chooses from."""
+    """The groups that a command's configuration chooses from; of experiments those that fit."""
     text = (CONF / f"{command.replace('-', '_')}.yaml").read_text()
     named = re.findall(r"^  - (?:optional )?(\w+): ", text, re.MULTILINE)
-    return {name: groups()[name] for name in named if name in groups()}
+    found = {name: groups()[name] for name in named if name in groups()}
+    if "experiment" in found:
+        own = {key for name in _files(command) for key in _read(CONF / f"{name}.yaml", "")}
+        fitting = [one for one in found["experiment"] if _sets(one) <= own | found.keys()]
+        found["experiment"] = fitting
+    return found
 
 
 @cache
@@ -63,6 +68,13 @@ def own_keys(command: str) -> list[str]:
     ]
     files = [(CONF / f"{own}.yaml", ""), *lone, *((CONF / f"{one}.yaml", "") for one in shared)]
     return [key for path, prefix in files for key in _read(path, prefix)]
+
+
+def _sets(experiment: str) -> set[str]:
+    """The keys and groups that an experiment sets something of."""
+    path = CONF / "experiment" / f"{experiment}.yaml"
+    overridden = re.findall(r"^  - override /(\w+):", path.read_text(), re.MULTILINE)
+    return {*overridden, *(key.partition(".")[0] for key in _read(path, ""))}
 
 
 @cache

@@ -110,11 +110,11 @@ def test_a_shell_is_offered_keys_and_choices(command, typed, offered):
 
 
 @pytest.mark.parametrize("name", groups()["experiment"])
-def test_an_experiment_composes_for_a_command_at_least(name):
+def test_an_experiment_is_offered_for_the_commands_that_it_composes_for(name):
     from hydra import compose, initialize_config_module
     from hydra.errors import ConfigCompositionException
 
-    composed = 0
+    composed = []
     with initialize_config_module("conf", version_base="1.3"):
         given = ["map=somewhere"]
         both = [*given, "action=somewhere"]
@@ -124,8 +124,9 @@ def test_an_experiment_composes_for_a_command_at_least(name):
             with suppress(ConfigCompositionException, UserError):
                 cfg = compose(command.replace("-", "_"), [f"experiment={name}", *more])
                 checked(command, cfg)
-                composed += 1
+                composed.append(command)
     assert composed
+    assert composed == [one for one in commands if name in groups_of(one)["experiment"]]
 
 
 def choices_of_commands():
