@@ -1,8 +1,10 @@
 """What stands around an arm: the table under it, its own trunk, the head above it."""
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
+from numpy.typing import NDArray
 
 from imitation.arrays import Array, Mask
 from imitation.robots.kinematic_chain import KinematicChain
@@ -43,14 +45,24 @@ class AroundArm:
             postures: (n, n_joints) [rad].
         """
         followed = self.chain.positions(postures)
-        points, trunk = np.split(followed, [len(self.radii)], axis=1)
+        points, trunk = followed[:, : len(self.radii)], followed[:, len(self.radii) :]
         height = points[..., 2] - self.radii
         above, over = height - self.table_height, height - self.base_height
         away = np.hypot(points[..., 0] - self.base[0], points[..., 1] - self.base[1])
         beside = away - self.base_radius - self.radii
-        below = np.linalg.norm(points - self.head, axis=-1) - self.head_radius - self.radii
+        below = _length(points - self.head) - self.head_radius - self.radii
         free = np.minimum(np.minimum(above, np.maximum(beside, over)), below).min(axis=1)
-        between = np.linalg.norm(points[:, :, None] - trunk[:, None], axis=-1)
-        room = between - self.radii[:, None] - self.trunk_radii
-        own = room.min(axis=(1, 2), where=self.apart, initial=np.inf)
-        return np.asarray(np.minimum(free, own))
+        one, other = self._pairs
+        between = _length(points[:, one] - trunk[:, other])
+        room = between - self.radii[one] - self.trunk_radii[other]
+        return np.asarray(np.minimum(free, room.min(axis=1, initial=np.inf)))
+
+    @cached_property
+    def _pairs(self) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+        """Which point must keep apart from which of the trunk, (n_pairs,) each."""
+        one, other = np.nonzero(self.apart)
+        return one, other
+
+
+def _length(vectors: Array) -> Array:
+    return np.asarray(np.sqrt(np.einsum("...i,...i", vectors, vectors)))
