@@ -122,7 +122,7 @@ def _try_to_write_metrics(run: Run, status: str) -> None:
 def _finish(run: Run, outcome: Outcome) -> int:
     run.write_metrics("done", outcome.metrics)
     run.draw()
-    show(run.command, run.folder, outcome, run.cadence)
+    show(run.command, run.folder, outcome, run.senses)
     begins = run.cfg.get("fault", {}).get("at")
     if begins is not None and begins >= run.robot_time_s:
         _say(f"the run was over before fault.at={begins:g} s; type a smaller one to spoil it")

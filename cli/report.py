@@ -8,9 +8,9 @@ from cli.printed import facts, on_stdout
 from cli.run import Outcome
 
 
-def show(command: str, folder: Path, outcome: Outcome, cadence: list[tuple[str, str]]) -> None:
+def show(command: str, folder: Path, outcome: Outcome, senses: list[tuple[str, str]]) -> None:
     """Print the results of a run on stdout."""
-    on_stdout().print(facts(f"imitate {command}", [*outcome.rows, *cadence]))
+    on_stdout().print(facts(f"imitate {command}", [*outcome.rows, *senses]))
     show_files(folder, outcome.next)
 
 

@@ -21,6 +21,7 @@ from cli.progress import ProgressReport
 from cli.provenance import run_record, sha256
 from imitation.analysis.cadence import Cadence
 from imitation.analysis.frame_count import FrameCount
+from imitation.analysis.sight import Sight
 from imitation.device import DeviceError
 from imitation.recording.recorder import Happening, Recorder, RecorderError
 from imitation.robot import SECOND, Truth
@@ -68,6 +69,7 @@ class Run:
     late_ticks: int = 0  # steps that took longer than a period of real time
     _cadence: Cadence = field(default_factory=Cadence)
     _frames: FrameCount = field(default_factory=FrameCount)
+    _sight: Sight = field(default_factory=Sight)
     _inputs: dict[str, Path] = field(default_factory=dict)
     _began: float = field(default_factory=time.monotonic)
 
@@ -79,13 +81,14 @@ class Run:
         self.bench = Bench(self.cfg)
 
     @property
-    def cadence(self) -> list[tuple[str, str]]:
-        """What is printed of how time was kept; nothing in simulation, where it cannot be lost."""
+    def senses(self) -> list[tuple[str, str]]:
+        """What is printed of what was seen, and how time was kept; nothing in simulation."""
         rate = self._cadence.rate
         if rate is None or not self.bench.robot.live:
-            return []
+            return self._sight.rows
         late = f"{self.late_ticks} of {self.steps} late"
-        return [("steps a second", f"{rate:.2f} of {1 / self.bench.robot.period:g}, {late}")]
+        kept = f"{rate:.2f} of {1 / self.bench.robot.period:g}, {late}"
+        return [*self._sight.rows, ("steps a second", kept)]
 
     def write_config(self) -> None:
         """Write config.yaml."""
@@ -177,6 +180,7 @@ class Run:
         self.late_ticks = self.bench.robot.late_ticks
         self._frames.add(sample.seen)
         self._cadence.add(sample.seen)
+        self._sight.add(sample)
         self.robot_time_s = round(sample.applied.time_ns / SECOND + self.bench.robot.period, 9)
         for event in sample.events:
             self.log.info("%.2f s: %s: %s", sample.seen.time, event.kind, event.sentence)

@@ -15,9 +15,11 @@ def picture(x: float, size: tuple[int, int] = (320, 240)) -> np.ndarray:
     return frame
 
 
-def film(path: Path, frames: int = 30, rate: float = 25.0, size=(320, 240), still=False) -> Path:
+def film(
+    path: Path, frames: int = 30, rate: float = 25.0, size=(320, 240), still=False, codec="mp4v"
+) -> Path:
     """A film of the disc going from a quarter to three quarters of the width."""
-    writer = cv2.VideoWriter(str(path), cv2.VideoWriter_fourcc(*"mp4v"), rate, size)
+    writer = cv2.VideoWriter(str(path), cv2.VideoWriter_fourcc(*codec), rate, size)
     for number in range(frames):
         share = 0.0 if still else number / max(frames - 1, 1)
         writer.write(picture(0.25 + 0.5 * share, size))

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from itertools import chain
 from pathlib import Path
 
 import cv2
@@ -10,6 +11,7 @@ import numpy as np
 from imitation.arrays import Array
 from imitation.gaze import VisualSpace
 from imitation.robot import Shot
+from imitation.robots.film_file import missing_bytes
 from imitation.robots.opencv_camera import Development, pictures
 
 
@@ -28,7 +30,8 @@ class FilmCamera:
         quality: Of the JPEG [1..100].
 
     Raises:
-        ValueError: There is no film at `path`, or it has no frame between `start` and `end`.
+        ValueError: There is no whole film at `path`, or fewer than two pictures of it are shown
+            between `start` and `end`.
     """
 
     live = False
@@ -51,17 +54,23 @@ class FilmCamera:
         self._film = cv2.VideoCapture()
         if not self._path.is_file():
             raise ValueError(f"no film at camera.path={path}; type camera.path=FILM")
+        if missing := missing_bytes(self._path):
+            raise ValueError(
+                f"camera.path={path} is cut short: {missing} bytes or more are missing at its end; "
+                "give the whole film"
+            )
         self.reset(0)
 
     def reset(self, time_ns: int) -> None:
         """The film begins now."""
         self._film.open(str(self._path), cv2.CAP_FFMPEG)
         self._coming = self._shots(time_ns)
-        first = next(self._coming, None)
-        if first is None:
-            raise ValueError(self._why_nothing_is_shown())
+        first, second = next(self._coming, None), next(self._coming, None)
+        if first is None or second is None:
+            raise ValueError(self._why_it_is_no_film(first))
         self._newest: Shot = first
         self._next: Shot | None = first
+        self._coming = chain((second,), self._coming)
 
     def look(self, time_ns: int, gaze: Array | None) -> Shot:
         """The newest frame shown by now, with those shown since the last look."""
@@ -86,11 +95,12 @@ class FilmCamera:
         for shown_ns, picture in pictures(self._film, self._start, self._end):
             yield self._develop.shot(self._develop.jpeg(picture), began_ns + shown_ns)
 
-    def _why_nothing_is_shown(self) -> str:
+    def _why_it_is_no_film(self, only: Shot | None) -> str:
         named = f"camera.path={self._path}"
         if not self._film.isOpened():
             return f"{named} is no film that OpenCV can read; type camera.path=FILM"
+        holds = "nothing" if only is None else "a single picture"
         if not self._start and self._end is None:
-            return f"{named} holds no picture; type camera.path=FILM"
+            return f"{named} shows {holds}; type camera.path=FILM"
         end = "null" if self._end is None else f"{self._end:g}"
-        return f"{named} shows nothing from camera.start={self._start:g} to camera.end={end} s"
+        return f"{named} shows {holds} from camera.start={self._start:g} to camera.end={end} s"

@@ -39,6 +39,7 @@ def framed(picture: Image, size: tuple[int, int]) -> Image:
     return whole
 
 
+DAMAGED = 100  # so many pictures in a row that cannot be read are the end of a film
 ASPECTS = {"crop": cropped, "fit": framed}
 
 
@@ -87,9 +88,9 @@ def pictures(film: Any, start: float, end: float | None) -> Iterator[tuple[int, 
     usual = round(SECOND / rate) if rate > 0 else 1  # where the film does not tell a time
     first, last = None, -usual
     while True:
-        there, picture = film.read()
+        picture = _next_readable(film)
         shown = film.get(cv2.CAP_PROP_POS_MSEC) / 1000
-        if not there or (end is not None and shown >= end):
+        if picture is None or (end is not None and shown >= end):
             return
         if shown < start:
             continue
@@ -97,3 +98,12 @@ def pictures(film: Any, start: float, end: float | None) -> Iterator[tuple[int, 
         at = round((shown - first) * SECOND)
         last = at if at > last else last + usual
         yield last, picture
+
+
+def _next_readable(film: Any) -> Image | None:
+    """The next picture that is not damaged; None at the end of the film."""
+    for _ in range(DAMAGED):
+        there, picture = film.read()
+        if there:
+            return np.asarray(picture, dtype=np.uint8)
+    return None

@@ -50,6 +50,15 @@ def test_frames_used_repeated_and_skipped_are_counted(run, imitate):
     assert slow["frames_repeated"] == slow["steps"] - 10
 
 
+def test_what_a_film_shows_is_printed(imitate):
+    path = film(imitate.folder / "film.mp4", 25)
+    given = ["robot=ideal", "camera=video", f"camera.path={path}"]
+    told = imitate("demo-record", *given).stdout
+    assert "25, 0.04 s apart at most" in told
+    assert "seen in 100% of the steps" in told
+    assert "apart at most" not in imitate("demo-record", "robot=ideal").stdout
+
+
 def test_the_same_film_gives_the_same_bytes_wherever_it_lies(run, imitate):
     (imitate.folder / "elsewhere").mkdir()
     moved = (imitate.folder / "film.mp4").rename(imitate.folder / "elsewhere" / "named.mp4")

@@ -1,15 +1,19 @@
 """A film in the place of a camera."""
 
+import re
 from itertools import pairwise
 
+import cv2
 import numpy as np
 import pytest
-from made_up_films import film
+from made_up_films import film, picture
 from on_bench import bench
 
 from imitation.jpeg import decoded
 from imitation.robot import Command
 from imitation.robots.opencv_camera import cropped, framed
+
+CODECS = {"mp4": "mp4v", "avi": "MJPG", "mkv": "FFV1", "webm": "VP80"}
 
 
 def shown(path, *words):
@@ -119,6 +123,7 @@ def test_a_wide_picture_is_cropped_or_framed():
         (None, [], "no film at"),
         (b"no film at all", [], "no film that OpenCV can read"),
         ("film", ["camera.start=9"], "camera.start=9"),
+        ("film", ["camera.end=0.03"], "a single picture from camera.start=0"),
     ],
 )
 def test_what_is_no_film_is_refused_in_one_sentence(tmp_path, content, words, told):
@@ -129,3 +134,32 @@ def test_what_is_no_film_is_refused_in_one_sentence(tmp_path, content, words, to
         path.write_bytes(content)
     with pytest.raises(ValueError, match=told):
         shown(path, *words)
+
+
+def test_a_picture_is_no_film(tmp_path):
+    path = tmp_path / "picture.png"
+    cv2.imwrite(str(path), picture(0.5))
+    with pytest.raises(ValueError, match=r"shows a single picture; type camera.path=FILM"):
+        shown(path)
+
+
+@pytest.mark.parametrize("kind", ["mp4", "avi", "mkv", "webm"])
+def test_a_film_that_was_cut_short_is_refused_and_a_whole_one_is_not(tmp_path, kind):
+    path = film(tmp_path / f"film.{kind}", 25, 25.0, codec=CODECS[kind])
+    assert len(captured(shown(path)[1])) == 25
+    whole = path.read_bytes()
+    path.write_bytes(whole[: len(whole) // 2])
+    with pytest.raises(ValueError, match=r"is cut short: \d+ bytes or more are missing"):
+        shown(path)
+
+
+def test_a_film_goes_on_after_pictures_that_are_damaged(tmp_path):
+    path = film(tmp_path / "film.avi", 25, 25.0, codec="MJPG")
+    content = bytearray(path.read_bytes())
+    pictures = [found.start() for found in re.finditer(b"\xff\xd8", bytes(content))]
+    for begins, ends in pairwise(pictures[10:14]):
+        content[begins : ends - 16] = bytes(ends - 16 - begins)
+    path.write_bytes(content)
+    times = captured(shown(path)[1])
+    assert 22 <= len(times) < 25
+    assert times[-1] == pytest.approx(0.96e9, abs=1e6)
