@@ -103,12 +103,16 @@ def view(
     screenshot: Annotated[
         Path | None, typer.Option(help="Save a picture here instead; needs no screen.")
     ] = None,
+    at: Annotated[
+        float | None,
+        typer.Option(help="Of the picture, in seconds from the start of the run; else its end."),
+    ] = None,
 ) -> None:
     """Look at a recording in Rerun; makes run.rrd if it is missing."""
     from cli.reading import reading
     from cli.view import view
 
-    raise typer.Exit(reading(run, lambda: view(run, screenshot)))
+    raise typer.Exit(reading(run, lambda: view(run, screenshot, at)))
 
 
 @app.command()

@@ -8,14 +8,16 @@ from pathlib import Path
 from cli.errors import DEVICE, DONE, UserError, say
 from cli.printed import on_stdout
 from imitation.recording.rerun_view import derive, screenshot
-from imitation.recording.run_files import file_in
+from imitation.recording.run_files import file_in, next_free
 from imitation.recording.yaml_reading import read_yaml
 
 PICTURES = (".png", ".jpg", ".jpeg")
 
 
-def view(run: Path, png: Path | None) -> int:
+def view(run: Path, png: Path | None, at: float | None) -> int:
     """Open a run's `run.rrd`, made now if it is missing, or save a picture of it as `png`."""
+    if at is not None and (png is None or not at >= 0):
+        raise UserError(f"--at {at:g}: type --screenshot FILE --at SECONDS, 0 or later")
     rrd = rrd_of(run)
     if png is None:
         if not (os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY")):
@@ -23,9 +25,14 @@ def view(run: Path, png: Path | None) -> int:
         return subprocess.run([sys.executable, "-m", "rerun_cli", str(rrd)], check=False).returncode
     if png.suffix.lower() not in PICTURES:
         raise UserError(f"--screenshot {png}: wanted a name that ends in {', '.join(PICTURES)}")
+    if png.exists():
+        raise UserError(
+            f"{png} is there already and nothing is written over; type --screenshot "
+            f"{next_free(png)}"
+        )
     try:
         png.absolute().parent.mkdir(parents=True, exist_ok=True)
-        screenshot(rrd, png)
+        screenshot(rrd, png, at)
     except RuntimeError as error:
         say(str(error))
         return DEVICE

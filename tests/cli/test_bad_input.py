@@ -77,6 +77,7 @@ TYPED = [
     (["figure", "fig3a", "figure.fig3a.path=3"], ["figure.fig3a.paths"]),
     (["figure", "fig3a", "figure=fig1"], ["fig3a", "leave", "figure= out"]),
     (["view", "nowhere"], ["nowhere"]),
+    (["view", "nowhere", "--at", "1"], ["--screenshot FILE --at SECONDS"]),
 ]
 
 

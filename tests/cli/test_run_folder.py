@@ -143,3 +143,10 @@ def test_a_refused_run_takes_nothing_away_that_is_not_its_own(imitate):
     (imitate.folder / "here" / "notes.txt").write_text("mine")
     assert imitate("reach", "robot=ideal", "map=nowhere", "out=here").exit_code == 2
     assert [path.name for path in (imitate.folder / "here").iterdir()] == ["notes.txt"]
+
+
+def test_no_screenshot_is_written_over(imitate, learned):
+    (imitate.folder / "here.png").write_bytes(b"another")
+    told = imitate("view", str(learned), "--screenshot", "here.png")
+    assert told.exit_code == 2 and "--screenshot here-2.png" in told.stderr
+    assert (imitate.folder / "here.png").read_bytes() == b"another"

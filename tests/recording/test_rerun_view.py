@@ -128,10 +128,15 @@ def test_live_view_without_a_viewer_is_refused_in_one_sentence():
 @pytest.mark.skipif(
     not any(Path("/usr/share/vulkan/icd.d").glob("*")), reason="needs a Vulkan renderer"
 )
-def test_screenshot_shows_something(derived, tmp_path):
+def test_a_screenshot_shows_the_end_or_the_time_asked_for(derived, tmp_path):
     rrd, _ = derived()
-    screenshot(rrd, tmp_path / "run.png")
-    assert (tmp_path / "run.png").stat().st_size > 50_000
+    for name, at in (("end", None), ("start", 0.0)):
+        screenshot(rrd, tmp_path / f"{name}.png", at)
+    end, start = ((tmp_path / f"{name}.png").read_bytes() for name in ("end", "start"))
+    assert min(len(end), len(start)) > 50_000
+    assert end != start
+    with pytest.raises(ValueError, match="the run ends at"):
+        screenshot(rrd, tmp_path / "late.png", 1e6)
 
 
 @pytest.mark.slow

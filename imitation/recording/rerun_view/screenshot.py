@@ -20,11 +20,11 @@ SETTLE = 5.0  # until data is fetched and the viewer's greetings have gone [s]
 SIZE = "1600x1000"  # of the picture [px]
 
 
-def screenshot(rrd: Path, png: Path) -> None:
-    """Save a picture of `rrd` as it looks at the end of the run.
+def screenshot(rrd: Path, png: Path, at: float | None = None) -> None:
+    """Save a picture of `rrd` as it looks `at` seconds of the run's clock; None: at its end.
 
     Raises:
-        ValueError: There is no file `rrd`.
+        ValueError: There is no file `rrd`, or the run was over by then.
         RuntimeError: The viewer cannot start, for lack of a renderer or for another reason.
     """
     if not rrd.is_file():
@@ -40,7 +40,9 @@ def screenshot(rrd: Path, png: Path) -> None:
         )
         try:
             client, end = _loaded(viewer, port)
-            client.set_time(TIMELINE, duration=end, play_state="paused")
+            if at is not None and at > end:
+                raise ValueError(f"no picture of {at:g} s: the run ends at {end:.2f} s")
+            client.set_time(TIMELINE, duration=end if at is None else at, play_state="paused")
             time.sleep(SETTLE)
             _save(client, png)
         except (ConnectionError, ChildProcessError) as error:
