@@ -127,10 +127,6 @@ class VisuoMotorMap:
         index = np.array((*areas, neurons), dtype=np.int32).T
         return Attractors(self.postures[(*areas, neurons)], selection[areas], index)
 
-    def nearest(self, area: Area, posture: Array) -> int:
-        """The neuron of a learned area's cluster whose posture is nearest to `posture` [rad]."""
-        return int(np.nanargmin(self._distance(area, posture)))
-
     def learned_area(self, place: Array) -> Area | None:
         """The learned area that `place` (2,) [px] lies in; None: it lies in none."""
         area = self.field.area_of(place)

@@ -5,20 +5,26 @@ from dataclasses import dataclass
 import numpy as np
 
 from imitation.arrays import Array
+from imitation.deciding import one_attractor
 from imitation.hull import nearest_mixture
 from imitation.regression import locally_linear
 from imitation.visual_field import Area
-from imitation.visuo_motor_map import VisuoMotorMap
+from imitation.visuo_motor_map import Attractors, VisuoMotorMap
 
 
 @dataclass(frozen=True)
 class Goal:
     """A posture to go to."""
 
-    posture: Array  # (n_joints,) [rad]
+    attractor: Attractors  # the posture alone, with the neuron that holds it
     selection: Array  # V that stands for it, (rows, columns)
     area: Area | None  # the area it is hoped to show the hand in
     place: Array | None  # centre of that area, (2,) [px]
+
+    @property
+    def posture(self) -> Array:
+        """Where the arm is to go, (n_joints,) [rad]."""
+        return np.asarray(self.attractor.postures[0])
 
 
 @dataclass(frozen=True)
@@ -82,13 +88,13 @@ class Babbling:
         noise = self.curiosity.jitter * fewest * self._spread
         guess = self._inside(guess + noise * self._rng.standard_normal(len(guess)))
         self._tries[area] = fewest + 1
-        return self._towards(learned, area, guess)
+        return self._towards(learned, area, one_attractor(guess))
 
     def nearest_learned(self, learned: VisuoMotorMap, areas: set[Area], posture: Array) -> Goal:
         """The learned posture among `areas` that takes the shortest way from `posture`."""
         ordered = sorted(areas)
-        known = [learned.postures[(*area, learned.nearest(area, posture))] for area in ordered]
-        chosen = int(np.argmin([self._travel(one, posture) for one in known]))
+        known = [learned.attractors(_only(learned, area), posture) for area in ordered]
+        chosen = int(np.argmin([self._travel(one.postures[0], posture) for one in known]))
         return self._towards(learned, ordered[chosen], known[chosen])
 
     def _wanting(self, learned: VisuoMotorMap) -> list[Area]:
@@ -108,15 +114,20 @@ class Babbling:
     def _anywhere(self, learned: VisuoMotorMap) -> Goal:
         mixture = self._rng.dirichlet(np.ones(len(self.guided)))
         nowhere = np.zeros(learned.field.shape)
-        return Goal(mixture @ self.guided, nowhere, None, None)
+        return Goal(one_attractor(mixture @ self.guided), nowhere, None, None)
 
-    def _towards(self, learned: VisuoMotorMap, area: Area, posture: Array) -> Goal:
-        selection = np.zeros(learned.field.shape)
-        selection[area] = 1.0
-        return Goal(posture, selection, area, learned.field.centres[area])
+    def _towards(self, learned: VisuoMotorMap, area: Area, attractor: Attractors) -> Goal:
+        return Goal(attractor, _only(learned, area), area, learned.field.centres[area])
 
     def _inside(self, posture: Array) -> Array:
         return nearest_mixture(self.guided, posture)
 
     def _travel(self, posture: Array, start: Array) -> float:
         return float((np.abs(posture - start) / self._speed).max())
+
+
+def _only(learned: VisuoMotorMap, area: Area) -> Array:
+    """V that selects one area, (rows, columns)."""
+    selection = np.zeros(learned.field.shape)
+    selection[area] = 1.0
+    return selection

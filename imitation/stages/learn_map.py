@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from imitation.arrays import Array
-from imitation.deciding import coming_to_rest, drawn_by, one_attractor
+from imitation.deciding import coming_to_rest, drawn_by
 from imitation.dynamics import Dynamics, homeostatic
 from imitation.pairing import PostureHistory
 from imitation.perception import Perception
@@ -73,6 +73,7 @@ class Learner:
             if arrived is not None and not waiting:
                 if babbling is None and goal.area is not None and percept.hand is not None:
                     self.shown[goal.area] = percept.hand
+                    events.append(_told("visited", goal.area, percept.hand, "is visited"))
                 if not events:
                     return
             decision = self._drawn_to(goal, seen)
@@ -94,21 +95,27 @@ class Learner:
         area = self.learned.learn(visual_input, posture, place)
         if area is None or before[area]:
             return None
-        row, column = area
-        return Event(
-            "learned",
-            f"area [{row}, {column}] is learned, {int(self.learned.learned.sum())} in all",
-            {"area": [row, column], "place_px": [round(float(p), 2) for p in place]},
-        )
+        return _told("learned", area, place, f"is learned, {self.learned.learned.sum()} in all")
 
     def _drawn_to(self, goal: Goal, seen: Observation) -> Decision:
         gain, level = homeostatic()
-        attractor = one_attractor(goal.posture)
         decision = drawn_by(
-            attractor, goal.selection, seen.posture, self.dynamics, gain, level, target=goal.place
+            goal.attractor,
+            goal.selection,
+            seen.posture,
+            self.dynamics,
+            gain,
+            level,
+            target=goal.place,
         )
         body, period = self.robot.body, self.robot.period
         return coming_to_rest(decision, seen.posture, body.acceleration, period)
+
+
+def _told(kind: str, area: Area, place: Array, what: str) -> Event:
+    row, column = area
+    facts = {"area": [row, column], "place_px": [round(float(p), 2) for p in place]}
+    return Event(kind, f"area [{row}, {column}] {what}", facts)
 
 
 def learn_map(learner: Learner, babbling: Babbling) -> Iterator[Sample]:

@@ -4,8 +4,10 @@ import numpy as np
 import pytest
 from on_bench import bench, lesson
 
+from cli.stages import learning
 from imitation.analysis.metrics import learn_map_metrics
 from imitation.arrays import Array
+from imitation.deciding import one_attractor
 from imitation.hull import nearest_mixture
 from imitation.robot import Robot
 from imitation.robots.ideal import IdealArm
@@ -130,16 +132,16 @@ def test_areas_never_seen_are_named(half_lesson):
     assert metrics["areas_learned"] <= 16 - len(never)
 
 
-def learner_of(parts, robot: Robot, limit: float = 120.0) -> Learner:
+def learner_of(parts, robot: Robot, limit: float = 120.0, learned=None) -> Learner:
     settings = LearningRun(**{**parts.cfg["learning"], "limit": limit})
     perception = parts.perception(parts.field)
-    learner = Learner(robot, perception, parts.dynamics, parts.empty_map(), settings)
+    learner = Learner(robot, perception, parts.dynamics, learned or parts.empty_map(), settings)
     learner.begin()
     return learner
 
 
 def goal_at(parts, posture) -> Goal:
-    return Goal(np.asarray(posture), np.zeros(parts.field.shape), None, None)
+    return Goal(one_attractor(np.asarray(posture)), np.zeros(parts.field.shape), None, None)
 
 
 def test_a_movement_ends_within_arrival_of_its_goal():
@@ -148,6 +150,21 @@ def test_a_movement_ends_within_arrival_of_its_goal():
     steps = list(learner.move(goal_at(parts, corner), None))
     assert learner.seen.posture == pytest.approx(corner, abs=0.015)
     assert steps[-1].seen.time < 5.0
+
+
+def test_a_revisit_names_the_neuron_it_goes_to_and_tells_where_the_hand_is_seen_at_last():
+    parts = bench("learn-map", "robot=ideal", "learning.limit=2")
+    learner, samples = learning(parts)
+    list(samples)
+    learned, seen = learner.learned, learner.seen
+    area = sorted(map(tuple, np.argwhere(learned.learned).tolist()))[0]
+    babbling = Babbling(parts.guided, Curiosity(**parts.cfg["curiosity"]), np.ones(5), None)
+    goal = babbling.nearest_learned(learned, {area}, seen.posture)
+    steps = list(learner_of(parts, parts.robot, learned=learned).move(goal, None))
+    assert all(step.decision.index.tolist() == [[*area, 0]] for step in steps)
+    (visited,) = steps[-1].events
+    assert (visited.kind, visited.facts["area"]) == ("visited", list(area))
+    assert visited.facts["place_px"] == pytest.approx(steps[-1].percept.hand, abs=0.005)
 
 
 def test_a_goal_below_the_table_is_given_up():
