@@ -63,8 +63,9 @@ class Reaching(Section):
     """`reach`."""
 
     tolerance: Positive
-    settled: Positive
     hold_frames: Count
+    noise_px: NotNegative
+    sure: NotNegative
     limit: Positive
     after: Literal["stop", "hold"]
     required: Share | None

@@ -50,7 +50,6 @@ def reaching(
         stored.outline,
         bench.robot.body,
         cfg["border"],
-        cfg["hold_frames"],
         holding=bench.cfg["controller"]["name"] not in (*CONTROLS, "yuragi"),
     )
     return stages.reaching(bench, stored.map, trials), metrics

@@ -73,7 +73,6 @@ class ReachMetrics:
         outline: Border of the learned region, (n, 2) [px].
         body: For the time that its speed limits allow.
         border: Targets nearer than this to the outline are a class of their own [px].
-        hold_frames: Frames in a row that make a target held.
         holding: Success is a target held, not only reached.
     """
 
@@ -81,13 +80,14 @@ class ReachMetrics:
     outline: Array
     body: Body
     border: float
-    hold_frames: int
     holding: bool
     trials: list[dict[str, Any]] = field(default_factory=list)
     _truths: dict[int, Array] = field(default_factory=dict)
     _hands: list[Array] = field(default_factory=list)  # true hand since the start, (2,) [px]
     _path_px: float = 0.0  # its way
     _first: Sample | None = None
+    _hold: dict[str, Any] = field(default_factory=dict)  # arrival at what may become a hold
+    _hold_at: int = 0  # and from which of the hands on
 
     def add(self, sample: Sample, truths: Iterable[Truth]) -> None:
         """Note one step and what was true around it."""
@@ -103,18 +103,25 @@ class ReachMetrics:
                 self._path_px += math.dist(true_hand, self._hands[-1])
             self._hands.append(true_hand)
         for event in sample.events:
-            trial["reached"] |= event.kind == "reached"
-            if event.kind == ("settled" if self.holding else "reached"):
-                self._arrive(sample, trial)
-            if event.kind == "held":
-                trial["held"] = True
-                held = self._hands[-self.hold_frames :]
-                off = [float(np.linalg.norm(hand - trial["target_px"])) for hand in held]
-                trial["true_distance_px"] = max(off) if off else None
+            self._tell(event.kind, sample, trial)
         if np.isfinite(sample.decision.distance):
             trial["final_distance_px"] = sample.decision.distance
-        if trial["time_s"] is None or not trial["reached"]:
+        if trial["time_s"] is None:
             trial["path_length_px"] = self._path_length()
+        apart = np.abs(sample.seen.posture - np.array(trial["start_posture"])) / self.body.speed
+        trial["time_bound_s"] = float(apart.max())
+
+    def _tell(self, kind: str, sample: Sample, trial: dict[str, Any]) -> None:
+        if kind == "reached":
+            trial["reached"] = True
+        if kind == "settled":
+            self._hold, self._hold_at = self._arrival(sample), len(self._hands) - 1
+        if kind == ("held" if self.holding else "reached"):
+            trial |= self._hold if self.holding else self._arrival(sample)
+        if kind == "held":
+            trial["held"] = True
+            off = [math.dist(hand, trial["target_px"]) for hand in self._hands[self._hold_at :]]
+            trial["true_distance_px"] = max(off, default=None)
 
     def _begin(self, sample: Sample) -> None:
         target = sample.decision.target
@@ -141,16 +148,15 @@ class ReachMetrics:
             }
         )
 
-    def _arrive(self, sample: Sample, trial: dict[str, Any]) -> None:
-        """The first frame of what may become a hold: the last one counts."""
+    def _arrival(self, sample: Sample) -> dict[str, Any]:
+        """What is told of the first frame at the target."""
         assert self._first is not None
-        start = self._first.seen
-        trial["time_s"] = (sample.seen.time_ns - start.time_ns) / SECOND
-        trial["path_length_px"] = self._path_length()
-        if self._hands:
-            trial["straight_px"] = float(np.linalg.norm(self._hands[-1] - self._hands[0]))
-        apart = np.abs(sample.seen.posture - start.posture) / self.body.speed
-        trial["time_bound_s"] = float(apart.max())
+        hands = self._hands
+        return {
+            "time_s": (sample.seen.time_ns - self._first.seen.time_ns) / SECOND,
+            "path_length_px": self._path_length(),
+            "straight_px": math.dist(hands[0], hands[-1]) if hands else None,
+        }
 
     def _path_length(self) -> float | None:
         return self._path_px if self._hands else None

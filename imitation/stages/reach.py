@@ -29,10 +29,15 @@ class Reaching:
     """When a trial succeeds and when it ends."""
 
     tolerance: float  # the target is reached when the hand is seen nearer than this [px]
-    settled: float  # a hold begins nearer than this, so that noise does not begin it early [px]
     hold_frames: int  # held when that is so for this many frames in a row
+    noise_px: float  # standard deviation of the places seen [px]
+    sure: float  # nearer than tolerance by so many times the noise, the hand truly is there
     limit: float  # a trial ends here [s]
     after: Literal["stop", "hold"]  # stop at the target for good, or hold while under tolerance
+
+    def begins_hold(self, distance: float, near_before: bool) -> bool:
+        """Whether a frame within tolerance begins a hold: one alone may be there by noise."""
+        return near_before or distance < self.tolerance - self.sure * self.noise_px
 
 
 def reach(
@@ -49,17 +54,18 @@ def reach(
         seen = robot.reset(trial.start)
         controller.begin(learned, trial.target)
         begun, frame_ns = seen.time, -1
-        stopped, reached, held, left = False, False, 0, reaching.hold_frames
+        stopped, reached, near_before = False, False, False
+        held, left = 0, reaching.hold_frames + 1  # the first frame may be doubted
         events = [_begun(number, trial)]
         while seen.time - begun <= reaching.limit and held < reaching.hold_frames and left:
             percept = perception.perceive(seen)
             decision = controller.decide(seen, percept, trial.target, dynamics)
             near = decision.distance < reaching.tolerance
-            holding = near and (held > 0 or decision.distance < reaching.settled)
             if near and not reached:
                 events.append(_told("reached", number, decision.distance))
             if percept.time_ns != frame_ns or not near:
-                held = held + 1 if holding else 0
+                goes_on = held > 0 or reaching.begins_hold(decision.distance, near_before)
+                held, near_before = held + 1 if near and goes_on else 0, near
                 if held == 1:
                     events.append(_told("settled", number, decision.distance))
                 if held == reaching.hold_frames:

@@ -131,14 +131,13 @@ def truth(step: int, x: float, y: float = 0.0) -> Truth:
     return Truth(step * PERIOD, np.add(TARGET, (x, y)), np.zeros(3))
 
 
-def followed(steps, holding: bool = True, hold_frames: int = 3, learned=None) -> ReachMetrics:
+def followed(steps, holding: bool = True, learned=None) -> ReachMetrics:
     """Metrics of steps, each a sample and the truth of the same instant."""
     metrics = ReachMetrics(
         learned or linear_map(),
         OUTLINE,
         BODY,
         border=10.0,
-        hold_frames=hold_frames,
         holding=holding,
     )
     for one, *truths in steps:
@@ -169,13 +168,22 @@ def test_time_and_path_of_a_hold_count_to_its_first_frame():
 def test_the_true_distance_is_the_largest_over_the_held_frames():
     (trial,) = followed(HELD).trials
     assert trial["true_distance_px"] == pytest.approx(2.5)
-    (trial,) = followed(HELD, hold_frames=1).trials
-    assert trial["true_distance_px"] == pytest.approx(1.5)
 
 
-def test_the_time_bound_is_the_slowest_joints_way_at_its_speed_limit():
-    (trial,) = followed(HELD).trials
-    assert trial["time_bound_s"] == pytest.approx(max(0.4 / 0.5, 0.5 / 2.0))
+@pytest.mark.parametrize("steps", [1, 4, 7])
+def test_the_time_bound_is_the_slowest_joints_way_to_the_last_posture_at_its_limit(steps):
+    (trial,) = followed(HELD[:steps]).trials
+    x, y = HELD[steps - 1][0].seen.posture
+    assert trial["time_bound_s"] == pytest.approx(max(x / 0.5, y / 2.0))
+
+
+def test_a_hold_that_was_broken_and_never_came_again_has_no_time_but_the_whole_way():
+    broken = [*HELD[:5], (sample(5, (0.5, 0.5), 4.0), truth(5, 4.0, 1.0))]
+    (trial,) = followed(broken).trials
+    assert trial["reached"]
+    assert trial["time_s"] is None
+    assert trial["straight_px"] is None
+    assert trial["path_length_px"] == pytest.approx(30.0 + np.hypot(10.0, 1.0) + 4.0)
 
 
 def test_a_trial_tells_where_it_began_and_what_took_part():
@@ -190,7 +198,7 @@ def test_a_trial_tells_where_it_began_and_what_took_part():
 
 
 def test_a_target_near_the_outline_is_a_class_apart():
-    metrics = ReachMetrics(linear_map(), OUTLINE, BODY, border=61.0, hold_frames=3, holding=True)
+    metrics = ReachMetrics(linear_map(), OUTLINE, BODY, border=61.0, holding=True)
     metrics.add(HELD[0][0], [])
     assert metrics.trials[0]["border"]
 
@@ -228,7 +236,6 @@ def test_a_trial_that_never_arrives_has_no_time_but_a_path_and_a_distance():
     (trial,) = followed(HELD[:4]).trials
     assert not trial["reached"]
     assert trial["time_s"] is None
-    assert trial["time_bound_s"] is None
     assert trial["true_distance_px"] is None
     assert trial["path_length_px"] == pytest.approx(30.0)
     assert trial["final_distance_px"] == 10.0
