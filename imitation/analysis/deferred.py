@@ -59,7 +59,7 @@ class DeferredMetrics:
     areas: Sequence[Area | None]
     times: Sequence[float]
     goal: Array | None
-    _truths: dict[int, Truth] = field(default_factory=dict)  # not yet decided on
+    _truths: dict[int, Truth] = field(default_factory=dict)  # not yet decided on, the last at last
     _times: list[float] = field(default_factory=list)
     _hands_px: list[Array] = field(default_factory=list)
     _hands: list[Array] = field(default_factory=list)
@@ -102,7 +102,7 @@ class DeferredMetrics:
     def result(self) -> dict[str, Any]:
         """What `metrics.json` says."""
         order, asked = self._order()
-        start, end = (self._things[0], self._things[-1]) if self._things else (None, None)
+        start, end = self._things[0] if self._things else None, self._end()
         return {
             "own_from": "truth" if self._from_truth else "map read at the posture",
             "triggered_at_s": self._trigger[0] if self._trigger else None,
@@ -149,6 +149,12 @@ class DeferredMetrics:
         entered = np.diff(order.entries)
         shown = np.diff([self.times[k] for k in asked[: len(order.entries)]])
         return [float(error) for error in entered - shown] if len(order.entries) > 1 else []
+
+    def _end(self) -> Array | None:
+        """Where the object was at last, after the last step too."""
+        poses = [truth.object_pose for truth in self._truths.values()]
+        things = [*self._things, *(pose[:3] for pose in poses if pose is not None)]
+        return things[-1] if things else None
 
     def _clock_errors(self) -> list[float]:
         states = sorted(self._predicted)

@@ -9,6 +9,7 @@ from cli.deferred_runs import demonstrated, replayed
 from cli.experiments import composed
 from cli.jobs.replay import deferred_metrics
 from cli.replaying import replaying
+from imitation.robot import Truth
 
 IDEAL = "robot=ideal"
 IN_VIEW = "robot.rest=[0.154,1.076,-1.64,0.432,0.0]"  # shows the hand in the action's second area
@@ -175,6 +176,15 @@ def test_a_replay_of_which_nobody_knows_the_truth_is_judged_by_the_map(learned, 
     assert told["order_correct"]
     assert told["grasped"] is None
     assert told["object_error_m"] is None
+
+
+def test_the_object_ends_where_it_is_after_the_last_step(learned, action):
+    bench = Bench(composed("replay", "map=given", "action=given", IDEAL, "~object"))
+    metrics = deferred_metrics(bench, learned, action)
+    for sample in replaying(bench, learned, action)[1]:
+        after = sample.applied.time_ns + 40_000_000
+        metrics.add(sample, [Truth(after, np.zeros(2), np.zeros(3), np.full(7, after / 1e9))])
+    assert metrics.result()["object_end_m"][0] == after / 1e9
 
 
 def test_a_replay_that_takes_too_long_stops_the_arm_and_says_where(learned, action):
