@@ -46,12 +46,13 @@ def follow(run: Run) -> Outcome:
 def rows(told: dict[str, Any]) -> list[tuple[str, str]]:
     """What is printed of a mimic run."""
     visits = f"{len(told['areas_followed'])} of {len(told['areas_demonstrated'])} visits"
+    between = "; soft reads between them" if told["selection"] == "soft" else ""
     return [
         ("selection", told["selection"]),
         ("areas followed", visits),
         ("lag", _with_unit(told["lag_s"], "s", 2)),
         ("distance after the lag", _with_unit(told["path_rmse_px"], "px (RMSE)", 1)),
-        ("best the areas allow", _with_unit(told["floor_rmse_px"], "px (RMSE)", 1)),
+        ("area by area, at best", _with_unit(told["floor_rmse_px"], f"px (RMSE){between}", 1)),
         ("correlation", _with_unit(told["correlation"], "", 3)),
     ]
 

@@ -36,8 +36,9 @@ def reach_targets(run: Run) -> Outcome:
     stored, name = the_map(run), run.cfg["controller"]["name"]
     samples, metrics = reaching(run.bench, stored, trials_of(run.bench, stored))
     run.record(samples, stored.map.field, metrics.add)
-    wanted = required(run.cfg["reach"]["required"], name)
-    return outcome(metrics.result(name), metrics.holding, wanted)
+    cfg = run.cfg["reach"]
+    stops = not metrics.holding and cfg["after"] == "stop"
+    return outcome(metrics.result(name), metrics.holding, stops, required(cfg["required"], name))
 
 
 def reaching(
@@ -103,10 +104,20 @@ def required(asked: float | None, controller: str) -> float:
     return 0.0 if controller in CONTROLS else 1.0
 
 
-def outcome(metrics: dict[str, Any], holding: bool, wanted: float) -> Outcome:
-    """What is told of the trials."""
+def outcome(metrics: dict[str, Any], holding: bool, stops: bool, wanted: float) -> Outcome:
+    """What is told of the trials.
+
+    Args:
+        metrics: Of the run.
+        holding: Success is a target held, not only reached.
+        stops: The arm was stopped for good where it first was near.
+        wanted: The success rate that was asked for.
+    """
     rate, count = metrics["success_rate"], len(metrics["trials"])
     word = "held" if holding else "reached"
+    held = _share(metrics["held_rate"])
+    if stops and metrics["held_rate"] < metrics["reached_rate"]:
+        held += ": it stops once there (paper); reach.after=hold holds"
     complaint = f"{word} {rate:.0%} of the targets, asked were {wanted:.0%} (reach.required)"
     return Outcome(
         metrics=metrics,
@@ -114,7 +125,7 @@ def outcome(metrics: dict[str, Any], holding: bool, wanted: float) -> Outcome:
             ("controller", metrics["controller"]),
             ("trials", str(count)),
             ("reached", _share(metrics["reached_rate"])),
-            ("held", _share(metrics["held_rate"])),
+            ("held", held),
             ("time to success", _seconds(metrics["median_time_s"])),
         ],
         next="imitate view {run}",

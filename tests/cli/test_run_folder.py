@@ -9,6 +9,7 @@ import pytest
 from omegaconf import OmegaConf
 
 from cli.check import checked
+from cli.jobs.reach import outcome
 from imitation.recording.mcap_recording import Recording
 from imitation.robots.bullet.world import find_urdf
 
@@ -112,6 +113,14 @@ def test_the_end_of_a_run_names_results_files_and_the_next_command(imitate):
     assert "16 of 16" in out
     assert "a/" in out
     assert "imitate reach map=a robot=ideal" in out
+
+
+@pytest.mark.parametrize(("stops", "told"), [(True, "reach.after=hold holds"), (False, "0%")])
+def test_an_arm_that_stopped_at_its_target_is_told_to_hold_by_a_key(stops, told):
+    metrics = {"controller": "yuragi", "trials": [], "reached_rate": 1.0, "held_rate": 0.0}
+    metrics |= {"success_rate": 1.0, "median_time_s": 2.0}
+    held = dict(outcome(metrics, holding=False, stops=stops, wanted=1.0).rows)["held"]
+    assert held.endswith(told)
 
 
 @pytest.mark.parametrize("name", ["a b", "x=1,2", "it's"])
