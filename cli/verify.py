@@ -8,12 +8,14 @@ from omegaconf import OmegaConf
 from rich.table import Table
 
 from cli.errors import DONE, NOT_TRUE, UserError, say
+from cli.inspect import results
 from cli.printed import facts, on_stdout
 from cli.provenance import another_program
 from cli.recompute import Anew, anew, configuration
 from cli.what_if import replaced
 from imitation.analysis.comparison import Comparison, Difference
 from imitation.analysis.seal import Break, broken, cited
+from imitation.recording.mcap_form import otherwise_written
 from imitation.recording.mcap_recording import Recording
 from imitation.recording.recorded_steps import StepTold
 from imitation.recording.recorder import Recorder
@@ -38,11 +40,14 @@ def as_recorded(run: Path) -> int:
     """Compare a recording with what is decided anew; the exit code."""
     recording = Recording.open(run)
     breaks, found = broken(recording), Comparison(recording.topics)
-    stopped = ""
+    stopped = otherwise = ""
     try:
         if "/camera/used" in recording.topics:  # else it was killed before its first step
             with anew(recording) as decided:
                 compare(found, decided, decided.paired())
+                if not breaks:
+                    robot = decided.bench.robot
+                    otherwise = otherwise_written(recording, robot.body, decided.field)
     except Exception as error:
         if not breaks or not recording.digest():
             raise
@@ -55,11 +60,24 @@ def as_recorded(run: Path) -> int:
     show("imitate verify", told, found)
     complaints = [one.sentence for one in breaks]
     complaints += [f"recomputing ended: {stopped}"] if stopped else []
+    complaints += [otherwise] if otherwise else []
+    complaints += [] if complaints else _counted(recording, found.steps)
     complaints += [found.first.sentence] if found.first else []
     complaints += [f"what differs may be the program: {by}"] if found.first and by else []
     for complaint in complaints:
         say(complaint)
     return NOT_TRUE if complaints else DONE
+
+
+def _counted(recording: Recording, steps: int) -> list[str]:
+    """A complaint when a run that came to its end tells of more or fewer steps than there are."""
+    metrics = results(recording.path.parent) if recording.path.name == "run.mcap" else {}
+    told = metrics.get("steps", steps)
+    if metrics.get("status") != "done" or told == steps:
+        return []
+    return [
+        f"metrics.json tells of {told} steps, {recording.path.name} of {steps}: one was changed"
+    ]
 
 
 def what_if(run: Path, words: Sequence[str]) -> int:

@@ -83,6 +83,12 @@ class Comparison:
         for one, other in _pairs(recorded, recomputed):
             if one is None or other is None or one != other:
                 self.note(self._difference(one, other))
+        order, due = _order(recorded), _order(recomputed)
+        if sorted(order) == sorted(due):
+            for came, wanted in zip(order, due, strict=True):
+                if came != wanted:
+                    at = recomputed[0].time_ns
+                    self.note(Difference(at, wanted, "order of messages", came, wanted, np.inf))
 
     def note(self, found: Difference) -> None:
         """Count a difference."""
@@ -149,6 +155,10 @@ def _pairs(
                 one[number] if number < len(one) else None,
                 other[number] if number < len(other) else None,
             )
+
+
+def _order(said: Sequence[Message]) -> list[str]:
+    return [message.topic for message in said if not _is_given(message)]
 
 
 def _by_topic(said: Sequence[Message]) -> dict[str, list[Message]]:

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 from imitation.recording.digest import ATTACHMENT, OVERALL, RECORD
-from imitation.recording.mcap_recording import Recording
+from imitation.recording.mcap_recording import Recording, digest_number
 from imitation.robot import SECOND
 
 BESIDE = {ATTACHMENT: "the attachment", RECORD: "the record"}
@@ -43,15 +43,16 @@ def broken(recording: Recording) -> list[Break]:
         start_ns = min((message.time_ns for message in chunk), default=end_ns)
         end_ns = max((message.time_ns for message in chunk), default=end_ns)
         digest.add(chunk)
-        told, now = recording.metadata.get(f"digest/{number:04d}"), digest.values()
+        name = f"digest/{number:04d}"
+        told, now = recording.metadata.get(name), digest.values()
         if told is None and not recording.whole:
             break  # cut between a chunk and its digest
-        for topic in _changed(told or {}, now):
+        for topic in [RECORD + name] if told is None else _changed(told, now):
             found.setdefault(topic, Break(topic, start_ns, end_ns))
     if not number:  # nothing but what stands before the messages
         for name in _changed(recording.digest() or digest.values(), digest.values()):
             found.setdefault(name, Break(name, 0, 0))
-    beyond = [name for name in recording.metadata if _number(name) > max(number, 1)]
+    beyond = [name for name in recording.metadata if digest_number(name) > max(number, 1)]
     if beyond:
         found.setdefault("the end", Break("the end", end_ns, end_ns))
     return sorted(found.values(), key=lambda one: one.from_ns)
@@ -67,8 +68,3 @@ def _changed(told: dict[str, str], now: dict[str, str]) -> list[str]:
     changed = [topic for topic in (*told, *now) if told.get(topic) != now.get(topic)]
     topics = [topic for topic in dict.fromkeys(changed) if topic != OVERALL]
     return topics or ["digest"] * bool(changed)
-
-
-def _number(name: str) -> int:
-    word, _, digits = name.partition("/")
-    return int(digits) if word == "digest" and digits.isdigit() else 0

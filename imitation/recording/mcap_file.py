@@ -4,14 +4,11 @@ import fcntl
 import json
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
-from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any, BinaryIO
 
-from mcap.writer import CompressionType
-
 from imitation.recording.digest import Digest
-from imitation.recording.mcap_quick import NO_LIMIT, QuickWriter
+from imitation.recording.mcap_quick import QuickWriter
 from imitation.recording.messages import definition
 from imitation.recording.step_messages import Message, Topic, topics
 from imitation.robot import Body
@@ -24,30 +21,31 @@ class McapFile:
     """The file itself: records at its head, then chunks of whole steps, each with a digest.
 
     Args:
-        path: The file; must not exist.
+        writer: Of the file.
         body: The arm.
         field: The visual field.
-        clock: Whether it tells when it was begun.
     """
 
-    def __init__(self, path: Path, body: Body, field: VisualField, clock: bool) -> None:
-        self._body, self._field, self._clock = body, field, clock
-        self._stream: BinaryIO = path.open("xb")
-        with suppress(OSError):  # not every file system can tell that it is being written
-            fcntl.flock(self._stream, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        self._writer: Any = QuickWriter(self._stream, NO_LIMIT, CompressionType.ZSTD)
+    def __init__(self, writer: QuickWriter, body: Body, field: VisualField) -> None:
+        self._body, self._field = body, field
+        self._writer: Any = writer
+        self._stream = writer.stream
         self._known: dict[str, Topic] = {}
         self._schemas: dict[str, int] = {}
         self._digest, self._digests = Digest(), 0
 
-    def begin(self, metadata: Mapping[str, str], attachments: Mapping[str, bytes]) -> None:
+    def begin(
+        self,
+        metadata: Mapping[str, str],
+        attachments: Mapping[str, bytes],
+        clock: Mapping[str, str] | None,
+    ) -> None:
         """Write what belongs to the run as a whole; it survives every kill."""
         self._writer.start(profile="ros2")
         self._record("run", dict(metadata))
         self._record("field", _geometry(self._field))
-        if self._clock:
-            now = datetime.now(UTC).isoformat(timespec="milliseconds")
-            self._record("clock", {"started": now})
+        if clock is not None:
+            self._record("clock", dict(clock))
         for name, data in attachments.items():
             kind = MEDIA_TYPES.get(Path(name).suffix, "application/octet-stream")
             self._writer.add_attachment(0, 0, name, kind, data)
@@ -65,10 +63,12 @@ class McapFile:
         self._digest.add(messages)
         self._write_digest()
 
-    def seal(self) -> None:
-        """Write the file's summary."""
+    def seal(self, recovered: Mapping[str, str] | None = None) -> None:
+        """Write the file's summary, and before it what a recovery had to tell."""
         if not self._digests:
             self._write_digest()
+        if recovered is not None:
+            self._writer.add_metadata("recovered", dict(recovered))
         self._writer.finish()
         self._stream.flush()
 
@@ -92,6 +92,14 @@ class McapFile:
             self._schemas[topic.type] = self._writer.register_schema(topic.type, "ros2msg", text)
         names = {"names": json.dumps(topic.names)} if topic.names else {}
         self._writer.register_channel(name, "cdr", self._schemas[topic.type], names)
+
+
+def new_file(path: Path) -> BinaryIO:
+    """A file that does not exist yet, locked while it is written."""
+    stream = path.open("xb")
+    with suppress(OSError):  # not every file system can tell that it is being written
+        fcntl.flock(stream, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    return stream
 
 
 def _geometry(field: VisualField) -> dict[str, str]:

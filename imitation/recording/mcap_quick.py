@@ -1,13 +1,15 @@
 """MCAP's writer with many messages packed at once: the same bytes in a tenth of the time."""
 
 import struct
+import zlib
 from collections.abc import Iterator, Sequence
-from typing import Any
+from typing import Any, BinaryIO
 
 from mcap.data_stream import RecordBuilder
 from mcap.opcode import Opcode
-from mcap.records import MessageIndex
-from mcap.writer import Writer
+from mcap.records import Chunk, ChunkIndex, MessageIndex
+from mcap.writer import CompressionType, Writer
+from zstandard import compress
 
 from imitation.recording.step_messages import Message
 
@@ -19,12 +21,17 @@ PACK = struct.Struct("<BQHIQQ").pack  # opcode, length, channel, sequence, two t
 class QuickWriter(Writer):
     """The writer, of whole chunks.
 
+    Args:
+        stream: Where to.
+
     Attributes:
+        stream: The same.
         channels: The channel of each topic.
     """
 
-    def __init__(self, *given: Any) -> None:
-        super().__init__(*given)
+    def __init__(self, stream: BinaryIO) -> None:
+        super().__init__(stream, NO_LIMIT, CompressionType.ZSTD)
+        self.stream = stream
         self.channels: dict[str, int] = {}
         self._Writer__chunk_indices = _PackedIndex()
         self._Writer__metadata_indexes = _PackedIndex()
@@ -56,7 +63,41 @@ class QuickWriter(Writer):
         told.message_start_time = started
         told.message_end_time = max(told.message_end_time, max(times))
         told.message_count += len(messages)
+        self._close_chunk()
         self.flush()  # type: ignore[no-untyped-call]
+
+    def packed(self, records: bytes) -> bytes:
+        """The records of a chunk, compressed."""
+        return compress(records)
+
+    def _close_chunk(self) -> None:
+        """Write the chunk, and where in it each channel's messages are."""
+        chunk, records = self._Writer__chunk_builder, self._Writer__record_builder  # type: ignore[attr-defined]
+        content = chunk.end()
+        packed, start = self.packed(content), self.stream.tell()
+        times = {
+            "message_start_time": chunk.message_start_time,
+            "message_end_time": chunk.message_end_time,
+        }
+        told = {"compression": "zstd", "uncompressed_size": len(content), **times}
+        Chunk(data=packed, uncompressed_crc=zlib.crc32(content), **told).write(records)
+        self.stream.write(records.end())
+        indices_start, offsets = self.stream.tell(), dict[int, int]()
+        for channel, index in chunk.message_indices.items():
+            offsets[channel] = indices_start + records.count
+            index.write(records)
+        index = ChunkIndex(
+            chunk_start_offset=start,
+            chunk_length=indices_start - start,
+            message_index_offsets=offsets,
+            message_index_length=records.count,
+            compressed_size=len(packed),
+            **told,
+        )
+        self._Writer__chunk_indices.append(index)
+        self._Writer__statistics.chunk_count += 1  # type: ignore[attr-defined]
+        self.stream.write(records.end())
+        chunk.reset()
 
 
 class _PackedIndex:

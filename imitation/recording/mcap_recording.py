@@ -1,6 +1,7 @@
 """The recording `run.mcap`, read again."""
 
 import json
+import re
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -10,6 +11,12 @@ from imitation.recording.digest import ATTACHMENT, RECORD, RECORDS, Digest
 from imitation.recording.mcap_reading import Contents, chunks, contents
 from imitation.recording.run_files import file_in
 from imitation.recording.step_messages import Message, Topic
+
+
+def digest_number(name: str) -> int:
+    """Which of the digests a record is, from 1; 0: none of them."""
+    word, _, digits = name.partition("/")
+    return int(digits) if word == "digest" and re.fullmatch("[0-9]{1,18}", digits) else 0
 
 
 def recording_in(path: Path) -> Path:
@@ -61,12 +68,16 @@ class Recording:
         """Every topic that was written, with its type and the names of its entries."""
         channels, schemas = self._found.channels.values(), self._found.schemas
         return {
-            channel.topic: Topic(
-                schemas[channel.schema_id].name,
-                tuple(json.loads(channel.metadata.get("names", "[]"))),
-            )
+            channel.topic: Topic(schemas[channel.schema_id].name, self._names(channel))
             for channel in channels
         }
+
+    def _names(self, channel: Any) -> tuple[str, ...]:
+        told = channel.metadata.get("names", "[]")
+        try:
+            return tuple(str(name) for name in list(json.loads(told)))
+        except (RecursionError, TypeError, ValueError):
+            raise ValueError(f"{self.path} is damaged: the names on {channel.topic}") from None
 
     def chunks(self) -> Iterator[list[Message]]:
         """All messages, chunk by chunk, in the order written; a chunk holds whole steps.
@@ -92,8 +103,8 @@ class Recording:
 
     def digest(self) -> dict[str, str]:
         """The last digest that was written: the seal of a whole recording; empty if none."""
-        names = [name for name in self.metadata if name.startswith("digest/")]
-        return self.metadata[max(names, key=lambda name: int(name[7:]))] if names else {}
+        last = max(self.metadata, key=digest_number)
+        return self.metadata[last] if digest_number(last) else {}
 
     def recomputed_digest(self) -> dict[str, str]:
         """The same, from what the messages say.

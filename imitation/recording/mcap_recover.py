@@ -10,10 +10,9 @@ from typing import Any, BinaryIO
 from mcap.data_stream import ReadDataStream
 from mcap.opcode import Opcode
 from mcap.records import Attachment, Channel, Chunk, Metadata, Schema
-from mcap.writer import CompressionType
 
 from imitation.recording.digest import RECORDS, Digest
-from imitation.recording.mcap_quick import NO_LIMIT, QuickWriter
+from imitation.recording.mcap_quick import QuickWriter
 from imitation.recording.mcap_reading import MESSAGE_FIELDS, parts, records, unpacked
 from imitation.recording.run_files import free
 from imitation.recording.step_messages import Message
@@ -47,7 +46,7 @@ class Recovery:
 
     def run(self) -> None:
         """Write everything up to the cut, or to what is damaged before it."""
-        writer: Any = QuickWriter(self.stream, NO_LIMIT, CompressionType.ZSTD)
+        writer: Any = QuickWriter(self.stream)
         writer.start(profile="ros2")
         try:
             for record in records(self.cut, KINDS):

@@ -4,10 +4,12 @@ import queue
 from collections.abc import Iterable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
+from datetime import UTC, datetime
 from pathlib import Path
 
 from imitation.recording.fifo import Worker, WorkFailedError
-from imitation.recording.mcap_file import McapFile
+from imitation.recording.mcap_file import McapFile, new_file
+from imitation.recording.mcap_quick import QuickWriter
 from imitation.recording.step_messages import Message, StepMessages, event_message
 from imitation.robot import SECOND, Body, Truth
 from imitation.sample import Event, Sample
@@ -70,8 +72,8 @@ class Recorder:
         self._closed = self._failed = False
         self._steps = StepMessages(body)
         try:
-            self._file = McapFile(path, body, field, clock=not reproducible)
-            self._file.begin(metadata, attachments)
+            self._file = McapFile(QuickWriter(new_file(path)), body, field)
+            self._file.begin(metadata, attachments, None if reproducible else _clock())
         except OSError as error:
             raise self._failure(error) from error
         self._worker: Worker[Told] = Worker(
@@ -148,6 +150,10 @@ class Recorder:
         self._failed = True
         told = error.strerror if isinstance(error, OSError) else None
         return RecorderError(f"{self.path.name} cannot be written: {told or repr(error)}")
+
+
+def _clock() -> dict[str, str]:
+    return {"started": datetime.now(UTC).isoformat(timespec="milliseconds")}
 
 
 def bounds(max_loss: float, period_ns: int) -> tuple[int, int]:

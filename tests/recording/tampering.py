@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 from mcap.reader import make_reader
 from mcap.records import Attachment, Channel, Chunk, Metadata, Schema
@@ -13,6 +14,7 @@ from imitation.recording.step_messages import Message
 
 Change = Callable[[str, int, bytes], bytes]  # topic, number of the message, data -> data
 Attach = Callable[[str, bytes], bytes]  # name, data -> data
+Form = Callable[[Any], Any]  # schema, channel or message -> that
 Tell = Callable[[str, dict[str, str]], dict[str, str]]  # name, what it tells -> that
 
 
@@ -29,8 +31,9 @@ def rewrite(
     tell: Tell = lambda name, told: told,
     sealed: bool = False,
     renamed: str | None = None,
+    form: Form = lambda record: record,
 ) -> None:
-    """Write `source` again, each part as `change`, `attach` or `tell` returns it.
+    """Write `source` again, each part as `change`, `attach`, `tell` or `form` returns it.
 
     With `sealed`, the digests are made anew as well; the last attachment is `renamed`.
     """
@@ -54,7 +57,7 @@ def rewrite(
                 digest.attach(name, data)
                 writer.add_attachment(0, 0, name, record.media_type, data)
             elif isinstance(record, Chunk):
-                for inner in breakup_chunk(record):
+                for inner in map(form, breakup_chunk(record)):
                     if isinstance(inner, Schema):
                         writer.register_schema(inner.name, inner.encoding, inner.data)
                     elif isinstance(inner, Channel):
@@ -68,7 +71,8 @@ def rewrite(
                         data = change(topic, number, inner.data)
                         at = inner.log_time
                         digest.add([Message(topic, at, data)])
-                        writer.add_message(inner.channel_id, at, data, at)
+                        times = (inner.publish_time, inner.sequence)
+                        writer.add_message(inner.channel_id, at, data, *times)
                 writer.flush()
         writer.finish()
 

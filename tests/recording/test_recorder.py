@@ -12,7 +12,7 @@ import pytest
 from mcap.writer import CompressionType, Writer
 from rosbags.highlevel import AnyReader
 
-from imitation.recording import mcap_file
+from imitation.recording import mcap_file, recorder
 from imitation.recording.mcap_recording import Recording
 from imitation.recording.recorder import Recorder, RecorderError, bounds
 
@@ -69,9 +69,9 @@ def test_messages_are_the_same_when_chunks_close_by_the_clock(record):
 class PlainWriter(Writer):
     """The library's own writer."""
 
-    def __init__(self, *given):
-        super().__init__(*given)
-        self.channels = {}
+    def __init__(self, stream):
+        super().__init__(stream, 1 << 62, CompressionType.ZSTD)
+        self.stream, self.channels = stream, {}
 
     def register_channel(self, topic, *given):
         self.channels[topic] = super().register_channel(topic, *given)
@@ -84,7 +84,7 @@ class PlainWriter(Writer):
 
 def test_quick_packing_gives_the_bytes_of_the_library(record, monkeypatch):
     quick = record("quick.mcap").read_bytes()
-    monkeypatch.setattr(mcap_file, "QuickWriter", PlainWriter)
+    monkeypatch.setattr(recorder, "QuickWriter", PlainWriter)
     assert record("slow.mcap").read_bytes() == quick
     assert CompressionType.ZSTD.name.lower().encode() in quick
 
