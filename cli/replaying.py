@@ -37,7 +37,8 @@ def recalling(bench: Bench, learned: VisuoMotorMap, action: Action) -> Recall:
     for state in action.states:
         sequence.learn(state.area, state.time)
     resting, noticing = Resting(**cfg["states"]), Noticing(**cfg["arrivals"])
-    arrivals = Arrivals(resting, noticing, field.reachable)
+    own = learned.strangeness(bench.rest) < cfg["replay"]["own_hand"]
+    arrivals = Arrivals(resting, noticing, field.reachable & own)
     loop, rng = Replay(sequence, bench.robot.period), generator(cfg["seed"], "sequence")
     places = [state.place for state in action.states]
     return Recall(places, loop, arrivals, field, cfg["sequence"]["noise"], rng)

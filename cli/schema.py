@@ -185,6 +185,7 @@ class Replaying(Section):
     patience: Positive
     after: NotNegative
     limit: Positive
+    own_hand: NotNegative
 
 
 class Arrivals(Section):

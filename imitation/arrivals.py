@@ -30,16 +30,16 @@ class Arrivals:
     Args:
         resting: A hand has come to stay when it rests as in a visual state.
         noticing: What counts as a hand in an area.
-        within_reach: Areas that the own hand can be in, (rows, columns).
+        own: Areas that the own hand may be in from the start, (rows, columns).
     """
 
-    def __init__(self, resting: Resting, noticing: Noticing, within_reach: Mask) -> None:
+    def __init__(self, resting: Resting, noticing: Noticing, own: Mask) -> None:
         self.resting, self.noticing = resting, noticing
-        self._within_reach = within_reach
-        self._since = np.full(within_reach.shape, np.nan)  # when each area's hand came [s]
-        self._last = np.full(within_reach.shape, -np.inf)  # when it was seen last [s]
-        self._familiar = np.zeros_like(within_reach)
-        self._rested = np.full((*within_reach.shape, 2), np.nan)  # where familiar hands rest [px]
+        self._own = own
+        self._since = np.full(own.shape, np.nan)  # when each area's hand came [s]
+        self._last = np.full(own.shape, -np.inf)  # when it was seen last [s]
+        self._familiar = np.zeros_like(own)
+        self._rested = np.full((*own.shape, 2), np.nan)  # where familiar hands rest [px]
         self._seen: deque[tuple[float, Array]] = deque()  # time [s] and hands [px], for `dwell`
 
     def notice(self, time: float, visual_input: Array, places: Array) -> dict[Area, float]:
@@ -61,7 +61,7 @@ class Arrivals:
         self._since[gone], self._familiar[gone] = np.nan, False
         came = here & (visual_input >= self.noticing.appearing) & ~self.present
         self._since[came] = time
-        self._take_for_granted(here & (self._within_reach if first else self._known(hands)))
+        self._take_for_granted(here & (self._own if first else self._known(hands)))
         return self._newly_resting(time, here & ~self._familiar)
 
     def grow_familiar(self) -> None:

@@ -124,8 +124,12 @@ class Enactor:
         area = field.area_of(self._target) if self.phase is Phase.REACHING else None
         return np.zeros(field.shape, dtype=bool) if area is None else field.around(area)
 
-    def rests(self, looked_ns: int) -> bool:
-        """Whether the arm is back at rest, and was so when it was last looked at [ns]."""
+    def rests(self, now_ns: int, looked_ns: int) -> bool:
+        """Whether the arm is back at rest, and was so when it was last looked at [ns].
+
+        Where nothing new is seen any more, as after a film, it is not waited for.
+        """
+        looked_ns = max(looked_ns, now_ns - round(self.arriving.pairing * SECOND))
         still = (looked_ns - self._moved_ns) / SECOND > self.arriving.still
         return self.phase is Phase.RESTING and still
 

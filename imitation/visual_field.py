@@ -85,11 +85,11 @@ class VisualField:
         row, column = np.unravel_index(activity.argmax(), self.shape)
         return int(row), int(column)
 
-    def into(self, place: Array, area: Area) -> Array:
-        """The place in `area` that is nearest to `place`, (2,) [px]."""
+    def into(self, place: Array, area: Area, margin: float = 0.0) -> Array:
+        """The place in `area`, `margin` from its border, that is nearest to `place`, (2,) [px]."""
         (x_edges, y_edges), (row, column) = self.edges, area
         low, high = (x_edges[column], y_edges[row]), (x_edges[column + 1], y_edges[row + 1])
-        return np.clip(place, low, np.subtract(high, INSIDE))
+        return np.clip(place, np.add(low, margin), np.subtract(high, max(margin, INSIDE)))
 
     def within(self, place: Array, radius: float) -> Array:
         """Selection V: 1 for every area whose centre is nearer than `radius` [px] to `place`."""

@@ -141,6 +141,10 @@ class VisuoMotorMap:
         off = np.linalg.norm(self.places - place[..., None, :], axis=-1)
         return np.asarray(np.where(np.isnan(off), np.inf, off).min(axis=-1))
 
+    def strangeness(self, posture: Array) -> float:
+        """Distance of `posture` (n_joints,) [rad] to the nearest learned one [-1..1]."""
+        return float(np.nanmin(self._distance(self.learned.nonzero(), posture), initial=np.inf))
+
     def memories(self) -> tuple[Array, Array]:
         """All learned postures (n, n_joints) [rad] and where each was seen (n, 2) [px]."""
         return self.postures[self.holds], self.places[self.holds]

@@ -1,5 +1,6 @@
 """Small films: a red disc that goes from left to right before a grey wall."""
 
+from collections.abc import Sequence
 from pathlib import Path
 
 import cv2
@@ -19,9 +20,23 @@ def film(
     path: Path, frames: int = 30, rate: float = 25.0, size=(320, 240), still=False, codec="mp4v"
 ) -> Path:
     """A film of the disc going from a quarter to three quarters of the width."""
+    shares = np.zeros(frames) if still else np.linspace(0, 1, frames)
+    return film_of(path, [picture(0.25 + 0.5 * share, size) for share in shares], rate, codec)
+
+
+def film_of_an_action(path: Path) -> Path:
+    """The disc rests at x = 55 px of 160 px, goes to 115 px, rests there, and goes on."""
+    across = np.concatenate((np.full(25, 55), np.linspace(55, 115, 25), np.full(25, 115)))
+    lower = 30  # than the middle, which is a border of areas [px]
+    pictures = [np.roll(picture(x / 160), lower, axis=0) for x in [*across, *range(115, 200, 3)]]
+    return film_of(path, pictures, 25.0, "mp4v")
+
+
+def film_of(path: Path, pictures: Sequence[np.ndarray], rate: float, codec: str) -> Path:
+    """A film that shows `pictures`."""
+    size = pictures[0].shape[1::-1]
     writer = cv2.VideoWriter(str(path), cv2.VideoWriter_fourcc(*codec), rate, size)
-    for number in range(frames):
-        share = 0.0 if still else number / max(frames - 1, 1)
-        writer.write(picture(0.25 + 0.5 * share, size))
+    for one in pictures:
+        writer.write(one)
     writer.release()
     return path

@@ -34,6 +34,14 @@ def approach_centre(visit: int) -> np.ndarray:
     return CENTRE + np.array([15.0 / (visit + 1), 0.0])
 
 
+def test_a_posture_is_strange_by_how_far_it_is_from_all_that_was_learned():
+    learned = empty_map()
+    assert learned.strangeness(np.zeros(2)) == np.inf
+    learned.learn(seen_in(AREA), np.array([0.3, 0.0]), CENTRE)
+    learned.learn(seen_in((0, 1)), np.array([0.3, 0.4]), FIELD.centres[0, 1])
+    assert learned.strangeness(np.array([0.3, 0.1])) == pytest.approx(0.1)
+
+
 def test_a_new_map_holds_nothing():
     learned = empty_map(neurons=3)
     assert not learned.learned.any()

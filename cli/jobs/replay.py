@@ -101,7 +101,7 @@ def _complaint(metrics: dict[str, Any]) -> str | None:
     if metrics["triggered_at_s"] is None:
         return (
             "nothing triggered the action: no hand came to rest in the area of a state that "
-            "another follows; within the arm's reach, one there from the start may be its own"
+            "another follows; of an arm that rests in view, one there from the start may be its own"
         )
     if not metrics["order_correct"]:
         done, asked = metrics["states_replayed"], metrics["states_asked"]

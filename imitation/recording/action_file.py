@@ -21,6 +21,7 @@ from imitation.visual_states import VisualState
 VERSION = 1  # of the file's layout
 MAX_BYTES = 2**18  # an action of a thousand states is smaller
 LATEST = 1e6  # longest time that any demonstration takes [s]
+MARGIN = 2.0  # of an area, in which a hand that reproduces an action might miss it [px]
 ROUNDING_PX, ROUNDING_S = 0.01, 0.001
 LIST = re.compile(r"\[\s+([^\[\]{}]*?)\s+\]")
 
@@ -34,8 +35,11 @@ class Action:
 
     @classmethod
     def watched(cls, field: VisualField, states: Sequence[VisualState]) -> "Action":
-        """An action as it was watched; a hand may rest on a border, its place lies in its area."""
-        inside = (replace(one, place=field.into(one.place, one.area)) for one in states)
+        """An action as it was watched.
+
+        A hand may rest on a border: its place is told within its area, for others to come there.
+        """
+        inside = (replace(one, place=field.into(one.place, one.area, MARGIN)) for one in states)
         return cls(field, tuple(inside))
 
 

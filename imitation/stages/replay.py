@@ -52,8 +52,7 @@ def replay(
         command = Command(decision.velocity, enactor.act(seen))
         enactor.go_on()
         events += _told(before, enactor, recall)
-        # A film that is over shows nothing more.
-        if recall.over and enactor.rests(seen.time_ns if seen.ended else percept.time_ns):
+        if recall.over and enactor.rests(seen.time_ns, percept.time_ns):
             recall.end()
             until = seen.time + ending.after
         elif seen.ended and recall.state is None:

@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import rerun as rr
-from made_up_films import film
+from made_up_films import film, film_of_an_action
 from rosbags.typesys import Stores, get_typestore
 
 from imitation.recording.mcap_recording import Recording
@@ -72,6 +72,18 @@ def test_what_was_decided_on_a_film_is_decided_so_anew(imitate, vision):
     run = watched(imitate, "run", film(imitate.folder / "film.mp4", 60, 60), f"vision={vision}")
     result = imitate("verify", str(run))
     assert result.exit_code == 0, result.output
+
+
+def test_an_action_seen_in_a_film_is_replayed_from_its_first_state(imitate, learned):
+    path = film_of_an_action(imitate.folder / "film.mp4")
+    action = watched(imitate, "seen", path)
+    states = json.loads((action / "action.json").read_text())["states"]
+    assert [state["area"] for state in states] == [[2, 1], [2, 3]]
+    words = ["robot=ideal", "camera=video", f"camera.path={path}", "object=null", "out=done"]
+    result = imitate("replay", f"map={learned}", f"action={action}", *words)
+    assert result.exit_code == 0, result.output
+    told = metrics(imitate.folder / "done")
+    assert (told["triggered_by_state"], told["states_replayed"]) == (0, 1)
 
 
 def test_the_rerun_file_shows_the_frames(run):

@@ -71,6 +71,13 @@ def test_an_action_survives_its_file(file):
     assert read.states[1].place == pytest.approx([85.13, 47.25])
 
 
+def test_a_rest_on_a_border_is_told_within_its_area():
+    at_border, inside = np.array([99.4, 60.5]), np.array([52.0, 75.0])
+    states = VisualState((1, 3), at_border, 0.0), VisualState((2, 1), inside, 1.0)
+    told = [state.place.tolist() for state in Action.watched(FIELD, states).states]
+    assert told == [[102.0, 58.0], [52.0, 75.0]]
+
+
 def test_the_file_holds_what_the_contract_says(file):
     told = json.loads(file.read_text())
     assert told["states"][1] == {

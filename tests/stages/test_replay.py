@@ -86,6 +86,20 @@ def test_left_of_the_reach_a_hand_that_is_there_from_the_start_triggers(learned,
     assert metrics["order_correct"]
 
 
+@pytest.mark.parametrize("state", [1, 2])
+def test_within_reach_it_does_when_the_arm_rests_where_it_has_never_seen_its_own(
+    learned, action, state
+):
+    x, y = action.states[state].place
+    shown = [f"demonstrator.place=[{x},{y}]", "demonstrator.at=0", "replay.patience=4"]
+    metrics, told = imitate(learned, action, *shown)
+    assert metrics["triggered_by_state"] == state
+    assert told.times_of("trigger") == [pytest.approx(0.4, abs=0.05)]
+    assert metrics["order_correct"]
+    metrics, _ = imitate(learned, action, *shown, IN_VIEW)
+    assert metrics["triggered_at_s"] is None
+
+
 def test_a_hand_that_only_passes_through_the_states_triggers_nothing(learned, action):
     y = action.states[0].place[1]
     shown = f"[[1,-60,{y}],[6,220,{y}]]"  # from beyond one edge of the image to beyond the other
