@@ -3,9 +3,10 @@
 import linecache
 import sys
 from collections.abc import Iterable, Sequence
-from difflib import get_close_matches
+from difflib import SequenceMatcher
 from typing import Any
 
+NEAR = 0.6  # so like what was typed is a name that may have been meant [0..1]
 DONE, NOT_TRUE, BAD_INPUT, DEVICE, INTERRUPTED = 0, 1, 2, 3, 130
 
 
@@ -20,14 +21,28 @@ def say(text: str) -> None:
 
 def nearest(word: str, valid: Iterable[str]) -> str:
     """'; did you mean ...?' with the nearest valid name, or nothing."""
-    close = get_close_matches(word, list(valid), n=1, cutoff=0.5)
+    close = [one for one in _nearest_first(word, valid) if _likeness(word, one)]
     return f"; did you mean {close[0]}?" if close else ""
 
 
 def no_such(kind: str, word: str, valid: Sequence[str]) -> str:
-    """That `word` is not among the choices, with the nearest and all of them."""
-    named = word or "without a name"
-    return f"there is no {kind} {named}{nearest(word, valid) or ';'} choose from {', '.join(valid)}"
+    """That `word` is not among the choices, with the nearest and all of them, nearest first."""
+    near, choices = nearest(word, valid) or ";", ", ".join(_nearest_first(word, valid))
+    return f"there is no {kind} {word or 'without a name'}{near} choose from {choices}"
+
+
+def _nearest_first(word: str, valid: Iterable[str]) -> list[str]:
+    return sorted(valid, key=lambda one: -_likeness(word, one))
+
+
+def _likeness(word: str, one: str) -> float:
+    """How sure it is that `word` was to be `one`, 0..1: 0 when it is not like it."""
+    if not word or one == "none":
+        return 0.0
+    if one.startswith(word) or one.endswith(f".{word}"):
+        return 1.0
+    ratio = SequenceMatcher(None, word, one).ratio()
+    return ratio if ratio >= NEAR else 0.0
 
 
 def in_usage(error: Any) -> str:

@@ -4,8 +4,8 @@ import re
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from cli.errors import UserError, nearest
-from cli.keys import groups
+from cli.errors import UserError, nearest, no_such
+from cli.keys import CONF, groups
 
 OVERRIDE = re.compile(r"^[+~]*[\w/@.]+=|^~[\w/@.]+$")
 PATHS = ("out", "map", "action")  # keys whose values are paths
@@ -54,6 +54,7 @@ def understand(typed: list[str]) -> Words:
         word = rest.pop(0)
         name, equals, value = word.partition("=")
         if OVERRIDE.match(word):
+            _check_choice(name.lstrip("+"), value)
             words.overrides.append(_absent(name) if value == "null" else word)
         elif word in OURS:
             words.overrides.append(OURS[word])
@@ -87,6 +88,13 @@ def _path_quoted(word: str) -> str:
     key, _, value = word.partition("=")
     plain = key not in PATHS or not SPECIAL.search(value) or value[:1] in ("'", '"')
     return word if plain else f"{key}={quoted(value)}"
+
+
+def _check_choice(group: str, choice: str) -> None:
+    """Refuse a file that is no choice: others include it."""
+    choices = groups().get(group, [])
+    if choice not in choices and (CONF / group / f"{choice}.yaml").is_file():
+        raise UserError(f"{group}={choice}: {no_such(group, choice, choices)}")
 
 
 def _absent(key: str) -> str:

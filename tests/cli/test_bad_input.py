@@ -76,6 +76,10 @@ TYPED = [
     (["figure", "fig33"], ["fig33", "fig3"]),
     (["figure", "fig3a", "figure.fig3a.path=3"], ["figure.fig3a.paths"]),
     (["figure", "fig3a", "figure=fig1"], ["fig3a", "leave", "figure= out"]),
+    (["demo"], ["did you mean demo-record? choose from demo-record, learn-map"]),
+    (["reach", "map=nowhere", "fault=nonsense"], ["no fault nonsense; choose from camera_black"]),
+    (["reach", "map=nowhere", "fault=camera"], ["did you mean camera_black?"]),
+    (["reach", "map=nowhere", "beta=2"], ["did you mean dynamics.beta?"]),
     (["view", "nowhere"], ["nowhere"]),
     (["view", "nowhere", "--at", "1"], ["--screenshot FILE --at SECONDS"]),
 ]
