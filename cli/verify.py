@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 from omegaconf import OmegaConf
+from rich.box import SIMPLE_HEAD
 from rich.table import Table
 
 from cli.errors import DONE, NOT_TRUE, UserError, say
@@ -15,6 +16,7 @@ from cli.recompute import Anew, anew, configuration
 from cli.what_if import replaced
 from imitation.analysis.comparison import Comparison, Difference
 from imitation.analysis.seal import Break, broken, cited
+from imitation.analysis.step_table import unit_of
 from imitation.recording.mcap_form import otherwise_written
 from imitation.recording.mcap_recording import Recording
 from imitation.recording.recorded_steps import StepTold
@@ -141,12 +143,13 @@ def show(title: str, told: Sequence[tuple[str, str]], found: Comparison) -> None
     console.print(facts(title, told))
     if not found.differing:
         return
-    table = Table(title="what differs", title_justify="left")
+    table = Table(title="what differs", title_justify="left", box=SIMPLE_HEAD, padding=(0, 1, 0, 0))
     table.add_column("topic", no_wrap=True)
-    for heading in ("steps", "first at", "recorded", "recomputed", "most"):
+    for heading in ("steps", "first at", "recorded", "anew", "most"):
         table.add_column(heading, justify="right")
     for topic, one in found.differing.items():
-        first, most = one.first, f"{one.largest:.2g}" if np.isfinite(one.largest) else ""
+        first, unit = one.first, unit_of(topic, one.first.term)
+        most = f"{one.largest:.2g} {unit}".strip() if np.isfinite(one.largest) else ""
         values = (_short(first.recorded), _short(first.recomputed))
         table.add_row(topic, str(one.steps), f"{first.time_ns / SECOND:.2f} s", *values, most)
     console.print(table)

@@ -27,6 +27,11 @@ UNITS = {  # of the numbers of a topic, when one holds for all
 UNITS_OF_ENTRIES = {"position": "rad", "velocity": "rad/s", "distance": "px", "proximity": "m"}
 
 
+def unit_of(topic: str, entry: str) -> str:
+    """Of a topic's entry, such as rad/s; empty: a number without unit, or text."""
+    return UNITS.get(topic) or UNITS_OF_ENTRIES.get(entry.rpartition(" ")[2], "")
+
+
 @dataclass(frozen=True)
 class Column:
     """One column."""
@@ -78,15 +83,14 @@ def _rows(recording: Recording) -> Iterator[Row]:
 
 
 def _cells(message: Message, topic: Topic) -> Row:
-    name, unit = message.topic.strip("/").replace("/", "."), UNITS.get(message.topic, "")
+    name = message.topic.strip("/").replace("/", ".")
     if message.topic in LISTS:
         told = messages.array(messages.decoded(message.data, topic.type))
-        return {name: (unit, told.tolist())}
-    cells: Row = {}
-    for entry, value in numbers(message.data, topic).items():
-        kind = entry.rpartition(" ")[2]
-        cells[f"{name}.{entry.replace(' ', '_')}"] = (unit or UNITS_OF_ENTRIES.get(kind, ""), value)
-    return cells
+        return {name: (unit_of(message.topic, ""), told.tolist())}
+    return {
+        f"{name}.{entry.replace(' ', '_')}": (unit_of(message.topic, entry), value)
+        for entry, value in numbers(message.data, topic).items()
+    }
 
 
 def _happened(told: StepTold) -> str:

@@ -311,6 +311,7 @@ def test_what_if_tells_differences_and_records_them(imitate, reached, tmp_path):
     told = imitate("verify", str(run), "--with", "dynamics.beta=9", "--with", "dynamics.tau=0.2")
     assert told.exit_code == 1, told.output
     assert "/joint_command/requested" in told.stdout and "/dynamics " not in told.stdout
+    assert "rad/s" in told.stdout
     first, second = Recording.open(run), Recording.open(run / "what-if.mcap")
     assert second.whole and second.metadata["run"]["what_if"] == "dynamics.beta=9 dynamics.tau=0.2"
     for topic, same in (("/joint_states", True), ("/joint_command/requested", False)):
