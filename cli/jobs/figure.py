@@ -42,29 +42,32 @@ def draw(cfg: Config) -> int:
     if demo:
         mark_demo(figure, count)
     files = [*save(figure, folder, name), write_claims(folder, name, claims, count, demo)]
-    show(f"{name}{f' (demo, n = {count})' if demo else ''}", claims, files)
-    failed = [claim for claim in claims if not claim.passed]
+    asked = [claim for claim in claims if claim.comparison != "reported"]
+    show(f"{name}{f' (demo, n = {count})' if demo else ''}", asked, len(claims), files)
+    failed = [claim for claim in asked if not claim.passed]
     if not failed or demo:
         return DONE
-    asked = sum(claim.comparison != "reported" for claim in claims)
-    say(f"{name}: {len(failed)} of {asked} claims did not come true")
+    say(f"{name}: {len(failed)} of {len(asked)} claims did not come true")
     return NOT_TRUE
 
 
-def show(title: str, claims: Sequence[Claim], files: Sequence[Path]) -> None:
-    """Print the claims and where the figure is."""
+def show(title: str, claims: Sequence[Claim], count: int, files: Sequence[Path]) -> None:
+    """Print the claims and where the figure is; of `count` values what is no claim is a report."""
     rows = [_row(claim) for claim in claims]
     console = Console(highlight=False)
     console.print(listing(title, ("claim", "asked", "measured", "95 % interval", ""), rows))
-    console.print("files  " + " ".join(os.path.relpath(path) for path in files), soft_wrap=True)
+    paths = [os.path.relpath(path) for path in files]
+    if reports := count - len(claims):
+        console.print(f"told   {reports} more values, in {paths[-1]}", soft_wrap=True)
+    console.print("files  " + " ".join(paths), soft_wrap=True)
 
 
 def _row(claim: Claim) -> tuple[str, ...]:
-    told = claim.comparison == "reported"
+    unit = "" if claim.unit == "share" else f" {claim.unit}"
     return (
         claim.sentence,
-        "" if told else f"{claim.comparison} {claim.asked:g} {claim.unit}",
-        f"{claim.measured:.4g}{f' {claim.unit}' if told else ''}",
-        f"{claim.low:.4g} .. {claim.high:.4g}",
-        "told" if told else "true" if claim.passed else "not true",
+        f"{claim.comparison} {claim.asked:g}{unit}",
+        f"{claim.measured:.4g}",
+        f"{claim.low:.3g} .. {claim.high:.3g}",
+        "true" if claim.passed else "not true",
     )

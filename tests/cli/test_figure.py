@@ -1,10 +1,14 @@
 """imitate figure: the figures that run what they need."""
 
 import json
+from pathlib import Path
 
+import numpy as np
 import pytest
 
 from cli.every_seed import on_every_seed
+from cli.jobs.figure import show
+from imitation.analysis.claims import every_claim
 
 IDEAL = "experiment.both=['robot=ideal']"
 SHORT = "experiment.reaching=['controller=yuragi','reach.limit=3']"
@@ -18,6 +22,14 @@ def squared(seed):
 def test_results_come_in_the_order_of_the_seeds(workers, capsys):
     assert on_every_seed("fig0", squared, [3, 1, 2], workers) == [9, 1, 4]
     assert "fig0 · 3 of 3 seeds" in capsys.readouterr().err
+
+
+def test_claims_are_printed_and_reports_counted(capsys):
+    claim = every_claim("All succeed.", np.ones(3))
+    show("fig9", [claim], 3, [Path("fig9.png"), Path("fig9.claims.json")])
+    told = capsys.readouterr().out
+    assert "All succeed." in told and "at least 1 " in told
+    assert "told   2 more values, in fig9.claims.json" in told
 
 
 @pytest.mark.slow
