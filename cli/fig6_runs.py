@@ -1,8 +1,9 @@
 """What Fig. 6 needs before it is drawn: gestures followed, controls, the mirror, seed by seed."""
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
+from itertools import chain
 
 import numpy as np
 
@@ -15,7 +16,7 @@ from imitation.analysis.fig6 import draw_fig6
 from imitation.analysis.fig6_claims import Mimicking
 from imitation.analysis.figure_style import Drawn
 from imitation.analysis.imitations import Followed, Imitations, Smoothed, fastest_transition
-from imitation.analysis.mimic_metrics import MimicMetrics
+from imitation.perception import Percept
 from imitation.visuo_motor_map import VisuoMotorMap
 
 SELECTIONS = ("winner", "soft")
@@ -30,7 +31,6 @@ class Fig6:
     slow_duration: float
     quick_duration: float
     taus: Sequence[float]
-    smoothed: Sequence[str]
     controlled: Sequence[str]
     shuffles: int
     drawing: Mimicking
@@ -51,11 +51,12 @@ def imitations(seed: int, settings: Fig6) -> Imitations:
     run, percepts = measured(controlled, learned)
     shuffled = shuffled_correlations(range(settings.shuffles), controlled, learned, percepts)
     alone = {name: measured(cfg, learned)[0] for name, cfg in without(controlled).items()}
+    followed, smoothed = zip(*_followed(seed, settings, learned), strict=True)
     return Imitations(
         learned=learned,
         transition_s=fastest_transition(learned, Bench(controlled).body.acceleration),
-        followed=list(_followed(seed, settings, learned)),
-        smoothed=list(_smoothed(seed, settings, learned)),
+        followed=followed,
+        smoothed=list(chain(*smoothed)),
         correlation=run.correlation(),
         shuffled=np.array(shuffled),
         travelled={name: one.travelled() for name, one in alone.items()},
@@ -67,41 +68,34 @@ def _told(seed: int, settings: Fig6, *words: str) -> Config:
     return {**composed("mimic", "map=given", *settings.experiment.both, *words), "seed": seed}
 
 
-def _followed(seed: int, settings: Fig6, learned: VisuoMotorMap) -> Iterator[Followed]:
-    paces = (
-        (settings.drawing.slow, settings.slow_duration),
-        (settings.drawing.quick, settings.quick_duration),
+def _followed(
+    seed: int, settings: Fig6, learned: VisuoMotorMap
+) -> Iterator[tuple[Followed, list[Smoothed]]]:
+    """Every gesture followed, and what each time constant makes of the quick ones."""
+    paces: tuple[tuple[float, float, Sequence[float]], ...] = (
+        (settings.drawing.slow, settings.slow_duration, []),
+        (settings.drawing.quick, settings.quick_duration, settings.taus),
     )
     for gesture in settings.gestures:
-        for period, duration in paces:
-            told = partial(
-                _told,
-                seed,
-                settings,
-                f"demonstrator={gesture}",
-                f"demonstrator.period={period}",
-                f"duration={duration}",
-            )
-            for selection, run in _of_each_selection(told, learned):
-                yield Followed(gesture, selection, period, run.result(selection), *run.paths())
+        for period, duration, taus in paces:
+            lap = f"demonstrator={gesture}", f"demonstrator.period={period}", f"duration={duration}"
+            percepts = None
+            for selection in SELECTIONS:
+                cfg = _told(seed, settings, *lap, f"selection={selection}")
+                if percepts is None:
+                    run, percepts = measured(cfg, learned)
+                else:  # all see the same
+                    [run] = seeing_the_same(cfg, learned, percepts, [learned])
+                numbers = run.result(selection)
+                followed = Followed(gesture, selection, period, numbers, *run.paths())
+                yield followed, [_smoothed(cfg, learned, percepts, tau) for tau in taus]
 
 
-def _smoothed(seed: int, settings: Fig6, learned: VisuoMotorMap) -> Iterator[Smoothed]:
-    for tau in settings.taus:
-        told = partial(_told, seed, settings, f"dynamics.tau={tau}", *settings.smoothed)
-        for selection, run in _of_each_selection(told, learned):
-            numbers = run.result(selection)
-            yield Smoothed(selection, tau, numbers["lag_s"], numbers["jitter_px"])
-
-
-def _of_each_selection(
-    told: Callable[..., Config], learned: VisuoMotorMap
-) -> Iterator[tuple[str, MimicMetrics]]:
-    """The same run by each selection; all see the same."""
-    first, *others = SELECTIONS
-    run, percepts = measured(told(f"selection={first}"), learned)
-    yield first, run
-    for selection in others:
-        cfg = told(f"selection={selection}")
-        [again] = seeing_the_same(cfg, learned, percepts, [learned])
-        yield selection, again
+def _smoothed(
+    cfg: Config, learned: VisuoMotorMap, percepts: Sequence[Percept], tau: float
+) -> Smoothed:
+    slower = {**cfg, "dynamics": {**cfg["dynamics"], "tau": tau}}
+    [run] = seeing_the_same(slower, learned, percepts, [learned])
+    selection = cfg["selection"]["name"]
+    numbers = run.result(selection)
+    return Smoothed(selection, tau, numbers["lag_s"], numbers["jitter_px"])

@@ -80,7 +80,7 @@ def _trajectories(axes: Any, learned: VisuoMotorMap, one: Followed, colour: str)
 
 
 def _smoothness(axes: Any, runs: Sequence[Imitations], settings: Mimicking) -> None:
-    """Lag against jitter over the time constant of the arm."""
+    """Lag against jitter over the time constant of the arm: medians over gestures and maps."""
     axes.axvline(settings.lag_s, color=FAINT, linewidth=0.8, linestyle=(0, (4, 2)))
     axes.text(settings.lag_s + 0.01, 0.012, "human", fontsize=6, color="#777777")
     for selection, (_, colour) in SELECTIONS.items():
@@ -97,7 +97,7 @@ def _smoothness(axes: Any, runs: Sequence[Imitations], settings: Mimicking) -> N
     axes.set_xlim(0, 1.25 * axes.dataLim.x1)  # room for what stands beside the last point
     axes.set_yscale("log")
     axes.set_yticks([0.01, 0.1, 1], ["0.01", "0.1", "1"])
-    axes.set_title(f"τ = {taus[0]:g}..{taus[-1]:g} s", loc="left")
+    axes.set_title(f"τ [s], {settings.quick:g} s a lap", loc="left")
 
 
 def _median_point(runs: Sequence[Imitations], selection: str, tau: float) -> tuple[float, float]:

@@ -78,7 +78,7 @@ def test_fig5_stands_beside_the_other_controllers(imitate):
 
 @pytest.mark.slow
 def test_fig6_shows_what_makes_the_imitation(imitate):
-    words = ("demo=true", "demo_seeds=1", "figure.fig6.gestures=[circle]", "figure.fig6.shuffles=3")
+    words = ("demo=true", "demo_seeds=1", "figure.fig6.gestures=[line]", "figure.fig6.shuffles=3")
     result = imitate("figure", "fig6", *words, f"figure.fig6.{IDEAL}")
     assert result.exit_code == 0, result.output
     told = json.loads((imitate.folder / "data/figures/fig6.claims.json").read_text())
