@@ -68,8 +68,9 @@ EXAMPLES = {
         ("imitate replay map=RUN action=RUN", "a hand at the action's first state triggers it"),
         ("imitate replay map=RUN action=RUN replay.precision=area", "as in the paper: eyes closed"),
         (
-            "imitate replay map=RUN action=RUN 'demonstrator.place=[85,75]'",
-            "a hand at the second state, where the can stands: the robot goes on from there",
+            "imitate replay map=RUN action=RUN 'demonstrator.place=[85,75]' "
+            "'object.seen_px=[115,45]'",
+            "a hand has begun, and brought the can to the third state: the robot takes it over",
         ),
         ("imitate replay map=RUN action=RUN object=null", "control: without the can"),
         (

@@ -223,6 +223,19 @@ def test_the_can_is_grasped_carried_and_put_where_the_demonstrator_put_it(katana
     assert metrics["object_error_m"] < 0.04
 
 
+@pytest.mark.slow
+def test_a_can_that_a_hand_has_begun_to_carry_is_taken_over_and_put_where_it_belongs(
+    katana, action
+):
+    (x, y), (bx, by) = action.states[1].place, action.states[2].place
+    words = f"demonstrator.place=[{x},{y}]", f"object.seen_px=[{bx},{by}]"
+    metrics = replayed(0, katana, action, *words).result()
+    assert metrics["triggered_by_state"] == 1
+    assert metrics["order_correct"]
+    assert metrics["grasped"]
+    assert metrics["object_error_m"] < 0.04
+
+
 def test_a_gripper_without_force_does_not_carry_the_can(katana, action):
     metrics = replayed(0, katana, action, "robot.arm.gripper.force=0").result()
     assert metrics["order_correct"]
