@@ -66,11 +66,12 @@ def red(picture) -> np.ndarray:
     return np.argwhere(looks_red)[:, ::-1] + 0.5
 
 
-def test_the_simulated_arm_follows_the_emulated_one():
+@pytest.mark.parametrize("stride", [100, 2500])  # the second at once, faster than it can follow
+def test_the_simulated_arm_follows_the_emulated_one(stride):
     with twin() as (one, _):
         motor = one.emulator.arm.motors[0]
         for step in range(25):
-            motor.position += 100
+            motor.position += stride if step < 2500 / stride else 0
             one.advance(step / 25)
         posture, _ = one.arm.world.joint_state()
         encoders = np.array([motor.position for motor in one.emulator.arm.motors[:5]])

@@ -53,6 +53,11 @@ class BulletArm:
         self._expected = np.clip(lead, self._posture - self._behind, self._posture + self._behind)
         return velocity
 
+    @property
+    def led_to(self) -> Array:
+        """Where its commands lead, less what it will not make up for, (n_joints,) [rad]."""
+        return self._expected
+
     def read(self) -> JointReading:
         """Sense the joints and the gripper."""
         felt = self.world.opening(), self.world.proximity(), self.world.touching()
