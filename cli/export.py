@@ -7,6 +7,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from cli.errors import DONE, UserError, no_such
+from cli.folder import check_writable
 from cli.inspect import size
 from cli.printed import on_stdout
 from cli.recompute import configuration
@@ -45,11 +46,15 @@ def export(paths: Sequence[Path], kind: str) -> int:
 def write_whole(out: Path, write: Callable[[Path], None]) -> None:
     """Have `out` written beside itself, and put in its place when all of it is there."""
     out.absolute().parent.mkdir(parents=True, exist_ok=True)
+    check_writable(out, "name another OUT")
     _clear_what_was_killed(out)
     unfinished = out.with_name(f".{out.stem}-{os.getpid()}{out.suffix}")
     try:
         write(unfinished)
         unfinished.rename(out)
+    except OSError as error:
+        error.filename = str(out)  # what was asked for, not the hidden one
+        raise
     finally:
         _remove(unfinished)
 
@@ -94,6 +99,12 @@ def _lerobot(out: Path, recordings: Sequence[Recording]) -> None:
     robot = first.metadata["run"].get("robot", "")
     dataset = Dataset(out, _period_ns(first), robot, first.topics["/joint_states"].names)
     for recording in recordings:
+        other = recording.metadata["run"].get("robot", "")
+        if other != robot:
+            raise UserError(
+                f"{recording.path} is of robot={other}, {first.path} of robot={robot}: "
+                "a LeRobot dataset is of one robot; export each to its own OUT"
+            )
         if _period_ns(recording) != _period_ns(first):
             raise UserError(f"{recording.path} has another control period than {first.path}")
         dataset.add(recording)

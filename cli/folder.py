@@ -36,6 +36,16 @@ def unmake_run_folder(folder: Path) -> None:
         folder.rmdir()
 
 
+def check_writable(path: Path, instead: str) -> None:
+    """Look whether a file can be written in a folder that is there.
+
+    Raises:
+        UserError: It cannot; the message says what to do `instead`.
+    """
+    if not os.access(path.absolute().parent, os.W_OK | os.X_OK):
+        raise UserError(f"{path} cannot be written: its folder is read-only for you; {instead}")
+
+
 def writable(folder: Path) -> Path:
     """The folder, made when it is missing; whatever it holds stays.
 

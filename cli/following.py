@@ -30,12 +30,20 @@ def replay_of(run: str, robot: str, typed: Sequence[str]) -> str:
 def newest_map(robot: str) -> str | None:
     """Folder of the newest map of a robot in data/runs; None: there is none."""
     runs = Path("data/runs")
-    maps = [path for depth in ("*", "*/*", "*/*/*") for path in runs.glob(f"{depth}/map.npz")]
+    found = (path for depth in ("*", "*/*", "*/*/*") for path in runs.glob(f"{depth}/map.npz"))
+    maps = [path for path in found if path.is_file()]
     for path in sorted(maps, key=lambda one: one.stat().st_mtime, reverse=True):
-        told = path.with_name("config.yaml")
-        if told.is_file() and read_yaml(told.read_bytes())["robot"]["name"] == robot:
+        if _robot_of(path.with_name("config.yaml")) == robot:
             return shlex.quote(os.fspath(path.parent))
     return None
+
+
+def _robot_of(config: Path) -> str | None:
+    """Name of the robot of a run; None: its configuration cannot be read."""
+    try:
+        return str(read_yaml(config.read_bytes())["robot"]["name"])
+    except (OSError, LookupError, TypeError, ValueError):
+        return None
 
 
 def _chosen(typed: Sequence[str], words: tuple[str, ...]) -> list[str]:

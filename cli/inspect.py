@@ -73,7 +73,7 @@ def results(folder: Path) -> dict[str, Any]:
     """What metrics.json says; nothing when there is none that can be read."""
     try:
         told = json.loads((folder / "metrics.json").read_text())
-    except (OSError, ValueError):
+    except (OSError, RecursionError, ValueError):
         return {}
     return told if isinstance(told, dict) else {}
 

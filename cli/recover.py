@@ -8,6 +8,7 @@ from pathlib import Path
 from rich.console import Console
 
 from cli.errors import DONE, UserError
+from cli.folder import check_writable
 from cli.inspect import results, size
 from cli.metrics_file import write_metrics
 from cli.printed import facts, on_stdout
@@ -26,6 +27,7 @@ def recover_run(run: Path) -> int:
         console.print(f"{path} is whole: there is nothing to recover", markup=False)
         return DONE
     refuse_while_written(path)
+    check_writable(path, "copy the run to a folder of your own")
     recovery, kept = recover(path)
     if path.name == "run.mcap":
         tell(Recording.open(path), recovery)

@@ -1,7 +1,6 @@
 """A run: its folder, recording, log and numbers, opened and closed here and nowhere else."""
 
 import logging
-import os
 import platform
 import shlex
 import time
@@ -145,11 +144,9 @@ class Run:
     def draw(self) -> None:
         """Derive run.rrd; a run without a step has nothing to show."""
         if self.steps:
-            os.environ.setdefault("RUST_LOG", "error")  # Rerun warns of meshes it does not find
-            from cli.view import demonstration_of
-            from imitation.recording.rerun_view import derive  # takes a second
+            from cli.view import derive_rrd
 
-            derive(self.folder, self.folder / "run.rrd", demonstration_of(self.folder))
+            derive_rrd(self.folder / "run.mcap", self.folder / "run.rrd")
 
     def write_metrics(self, status: str, more: Config) -> None:
         """Write metrics.json; what is no number or was not measured becomes null."""

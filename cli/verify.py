@@ -1,6 +1,9 @@
 """imitate verify: every logged decision is made anew from the logged senses, and compared."""
 
-from collections.abc import Iterable, Sequence
+import os
+import shlex
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 
 import numpy as np
@@ -9,6 +12,7 @@ from rich.box import SIMPLE_HEAD
 from rich.table import Table
 
 from cli.errors import DONE, NOT_TRUE, UserError, say
+from cli.folder import check_writable
 from cli.inspect import results
 from cli.printed import facts, on_stdout
 from cli.provenance import another_program
@@ -86,13 +90,15 @@ def what_if(run: Path, words: Sequence[str]) -> int:
     """Decide anew with other parameters, record it, say what would differ; 1 if anything does."""
     recording = Recording.open(run)
     found = Comparison(recording.topics)
-    with anew(recording, words) as decided, _second(recording, decided, words) as second:
+    with anew(recording, words) as decided, _whole(recording, decided, words) as second:
         compare(found, decided, _recorded_too(decided.paired(), second))
     told = [("steps", f"{found.steps} decided anew")]
     told += [("decisions", _differing(found) if found.differing else "the same, bit for bit")]
     show(f"what if: {' '.join(words)}", told, found)
     path = second.path
-    on_stdout().print(f"files  {path}", markup=False)
+    console = on_stdout()
+    console.print(f"files  {path}", markup=False)
+    console.print(f"next   imitate view {shlex.quote(os.path.relpath(path))}", markup=False)
     return NOT_TRUE if found.differing else DONE
 
 
@@ -121,12 +127,24 @@ def _recorded_too(pairs: Pairs, second: Recorder) -> Pairs:
         yield told, sample
 
 
-def _second(recording: Recording, decided: Anew, words: Sequence[str]) -> Recorder:
-    """A recording beside the first one."""
+@contextmanager
+def _whole(recording: Recording, decided: Anew, words: Sequence[str]) -> Iterator[Recorder]:
+    """A recording beside the first one, which is gone when anything interrupts it."""
+    path = free(recording.path.with_name("what-if.mcap"))
+    check_writable(path, "copy the run to a folder of your own")
+    try:
+        with _second(path, recording, decided, words) as second:
+            yield second
+    except BaseException:
+        path.unlink(missing_ok=True)
+        raise
+
+
+def _second(path: Path, recording: Recording, decided: Anew, words: Sequence[str]) -> Recorder:
     command, recorded = recording.metadata["run"]["command"], configuration(recording)
     text = OmegaConf.to_yaml(OmegaConf.create(dict(replaced(command, recorded, words))))
     return Recorder(
-        free(recording.path.with_name("what-if.mcap")),
+        path,
         body=decided.bench.robot.body,
         field=decided.field,
         period_ns=decided.bench.period_ns,

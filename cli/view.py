@@ -6,8 +6,8 @@ import sys
 from pathlib import Path
 
 from cli.errors import DEVICE, DONE, UserError, say
+from cli.folder import check_writable
 from cli.printed import on_stdout
-from imitation.recording.rerun_view import derive, screenshot
 from imitation.recording.run_files import file_in, next_free
 from imitation.recording.yaml_reading import read_yaml
 
@@ -22,7 +22,8 @@ def view(run: Path, png: Path | None, at: float | None) -> int:
     if png is None:
         if not (os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY")):
             raise UserError(f"no screen here; type imitate view {run} --screenshot view.png")
-        return subprocess.run([sys.executable, "-m", "rerun_cli", str(rrd)], check=False).returncode
+        viewer = [sys.executable, "-m", "rerun_cli", str(rrd)]
+        return subprocess.run(viewer, check=False).returncode
     if png.suffix.lower() not in PICTURES:
         raise UserError(f"--screenshot {png}: wanted a name that ends in {', '.join(PICTURES)}")
     if png.exists():
@@ -32,6 +33,9 @@ def view(run: Path, png: Path | None, at: float | None) -> int:
         )
     try:
         png.absolute().parent.mkdir(parents=True, exist_ok=True)
+        check_writable(png, "name another file")
+        from imitation.recording.rerun_view import screenshot
+
         screenshot(rrd, png, at)
     except RuntimeError as error:
         say(str(error))
@@ -49,14 +53,26 @@ def rrd_of(run: Path) -> Path:
     recording = file_in(run, "run.mcap")
     rrd = recording.with_suffix(".rrd")
     if not rrd.exists():
-        derive(recording, rrd, demonstration_of(recording.parent))
+        check_writable(rrd, "copy the run to a folder of your own")
+        derive_rrd(recording, rrd)
     return rrd
+
+
+def derive_rrd(recording: Path, rrd: Path) -> None:
+    """Derive the Rerun file of a recording."""
+    os.environ.setdefault("RUST_LOG", "error")  # Rerun warns of meshes it does not find
+    from imitation.recording.rerun_view import derive  # takes a second
+
+    derive(recording, rrd, demonstration_of(recording.parent))
 
 
 def demonstration_of(run: Path) -> Path | None:
     """The recording of the demonstration that a run replays, if it lies where it was."""
     config = run / "config.yaml"
-    told = read_yaml(config.read_bytes()) if config.is_file() else None
+    try:
+        told = read_yaml(config.read_bytes())
+    except (OSError, ValueError):  # it is not needed for what is shown
+        return None
     action = told.get("action") if isinstance(told, dict) else None
     if not isinstance(action, str):
         return None

@@ -19,6 +19,7 @@ from imitation.robot import SECOND
 STATE, ACTION, CAMERA = "observation.state", "action", "observation.images.camera"
 COUNTED = ("frame_index", "episode_index", "index", "task_index")
 DATA = "data/chunk-{chunk_index:03d}/file-{file_index:03d}.parquet"
+CHUNK = 1000  # files in a folder
 EPISODES = "meta/episodes/chunk-000/file-000.parquet"
 
 
@@ -65,7 +66,8 @@ class Dataset:
         if task not in self._tasks:
             self._tasks.append(task)
         number, first = len(self._episodes), sum(one["length"] for one in self._episodes)
-        data = self._folder / DATA.format(chunk_index=0, file_index=number)
+        chunk, file = divmod(number, CHUNK)  # LeRobot reads the files in the order of their names
+        data = self._folder / DATA.format(chunk_index=chunk, file_index=file)
         for folder in (data.parent, (self._folder / EPISODES).parent):
             folder.mkdir(parents=True, exist_ok=True)
         table = self._table(steps, number, first, self._tasks.index(task))
@@ -77,8 +79,8 @@ class Dataset:
                 "length": len(steps),
                 "dataset_from_index": first,
                 "dataset_to_index": first + len(steps),
-                "data/chunk_index": 0,
-                "data/file_index": number,
+                "data/chunk_index": chunk,
+                "data/file_index": file,
                 "meta/episodes/chunk_index": 0,
                 "meta/episodes/file_index": 0,
             }
@@ -124,7 +126,7 @@ class Dataset:
             "total_episodes": len(self._episodes),
             "total_frames": frames,
             "total_tasks": len(self._tasks),
-            "chunks_size": 1000,
+            "chunks_size": CHUNK,
             "data_files_size_in_mb": 100,
             "video_files_size_in_mb": 200,
             "fps": round(rate) if abs(rate - round(rate)) < 1e-6 else rate,

@@ -1,5 +1,7 @@
 """A recording as a film: what the camera saw, with the areas, the hand and the target on it."""
 
+import errno
+import os
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -13,6 +15,9 @@ from imitation.recording.overview import Grid
 from imitation.recording.recorded_steps import StepTold, steps_told
 from imitation.robot import SECOND
 
+# OpenCV and FFmpeg have words of their own for what we say in one line.
+os.environ.setdefault("OPENCV_FFMPEG_LOGLEVEL", "-8")
+cv2.utils.logging.setLogLevel(cv2.utils.logging.LOG_LEVEL_SILENT)
 LARGER = 4  # the picture is shown this much larger, so that marks have room
 CODEC = "vp09"  # browsers show it, and it needs no library that is not here
 FAINT, CYAN, YELLOW, WHITE = (120, 120, 120), (0, 220, 255), (255, 220, 0), (255, 255, 255)
@@ -27,6 +32,7 @@ def write_video(path: Path, recording: Recording, period_ns: int) -> None:
         OSError: The film cannot be written.
     """
     writer: cv2.VideoWriter | None = None
+    count = 0
     try:
         for picture in pictures(recording, period_ns):
             if writer is None:
@@ -34,13 +40,16 @@ def write_video(path: Path, recording: Recording, period_ns: int) -> None:
                 code = cv2.VideoWriter.fourcc(*CODEC)
                 writer = cv2.VideoWriter(str(path), code, SECOND / period_ns, (width, height))
                 if not writer.isOpened():
-                    raise OSError(f"{path} cannot be written as a film")
+                    raise OSError(errno.EIO, "no film can be begun there", str(path))
             writer.write(cv2.cvtColor(picture, cv2.COLOR_RGB2BGR))
+            count += 1
     finally:
         if writer is not None:
             writer.release()
     if writer is None:
         raise ValueError(f"{recording.path} holds no step: there is nothing to show")
+    if cv2.VideoCapture(str(path)).get(cv2.CAP_PROP_FRAME_COUNT) != count:  # OpenCV does not tell
+        raise OSError(errno.EIO, "not every picture was written, the disk may be full", str(path))
 
 
 def pictures(recording: Recording, period_ns: int) -> Iterator[Image]:

@@ -92,7 +92,7 @@ def _check_summary(path: Path) -> None:
     with path.open("rb") as stream:
         stream.seek(max(size - END.size, 0))
         opcode, length, start, _, told, _ = END.unpack(stream.read(END.size).rjust(END.size))
-        stream.seek(min(start, size))
+        stream.seek(min(start or size - END.size, size))  # 0: there is no summary
         summary = stream.read(size)[: -CHECKSUM.size - len(MCAP0_MAGIC)]
     if (opcode, length) != (Opcode.FOOTER, 20) or (told and told != zlib.crc32(summary)):
         raise ValueError(f"{path} is damaged: its summary is not what was written")

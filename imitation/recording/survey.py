@@ -27,6 +27,7 @@ class TopicSurvey:
         if not self.messages:
             self.first_ns = self.last_ns = time_ns
         self.gap_ns = max(self.gap_ns, time_ns - self.last_ns)
+        self.first_ns = min(self.first_ns, time_ns)  # not every program writes them in order
         self.last_ns = max(self.last_ns, time_ns)
         self.messages, self.bytes = self.messages + 1, self.bytes + size
 

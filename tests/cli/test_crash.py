@@ -2,15 +2,14 @@
 
 import errno
 import json
-import os
 import subprocess
 import sys
-from contextlib import contextmanager
 from pathlib import Path
 
 import numpy as np
 import pytest
 from rosbags.highlevel import AnyReader
+from small_disk import small_disk
 
 from cli.experiments import composed
 from imitation.recording.mcap_file import McapFile
@@ -174,19 +173,6 @@ def test_the_next_run_writes_nothing_over(imitate, learned, tmp_path):
     told = imitate("learn-map", "robot=ideal", "out=run")
     assert told.exit_code == 2 and "out=run-2" in told.stderr
     assert (tmp_path / "run" / "run.mcap").read_bytes() == before
-
-
-@contextmanager
-def small_disk(folder: Path, size: str):
-    """A disk of its own in the memory, where that is allowed."""
-    folder.mkdir()
-    call = ["mount", "-t", "tmpfs", "-o", f"size={size}", "tmpfs", str(folder)]
-    if os.geteuid() != 0 or subprocess.run(call, capture_output=True, check=False).returncode:
-        pytest.skip("a small disk cannot be mounted here")
-    try:
-        yield folder
-    finally:
-        subprocess.run(["umount", str(folder)], check=True)
 
 
 def check_a_full_disk(result, run):

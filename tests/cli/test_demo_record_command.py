@@ -96,3 +96,18 @@ def test_the_view_of_a_robot_that_only_watched_has_nothing_empty(recorded):
     shown = Overview.of(Recording.open(recorded))
     assert shown.curves == {"joints", "places"}
     assert set(fields(shown)) == {"/visual_input"}
+
+
+@pytest.mark.parametrize("broken", [b"robot: [", b"7", b"robot: {}", b"\xff\xfe", None])
+def test_a_broken_run_beside_does_no_harm(imitate, recorded, broken):
+    """What is typed next is looked for among all maps, whatever lies there."""
+    beside = imitate.folder / "data" / "runs" / "learn-map" / "old"
+    beside.mkdir(parents=True)
+    (beside / "map.npz").touch()
+    if broken is None:
+        (beside / "map.npz").unlink()
+        (beside / "map.npz").symlink_to("nowhere")
+    else:
+        (beside / "config.yaml").write_bytes(broken)
+    result = imitate("inspect", str(recorded))
+    assert result.exit_code == 0 and "imitate learn-map out=data/runs/map" in result.stdout

@@ -10,6 +10,7 @@ import numpy as np
 import pyarrow.parquet as pq
 import pytest
 import rerun as rr
+from tampering import rewrite
 
 import cli.export
 from imitation.recording.mcap_recording import Recording
@@ -116,6 +117,19 @@ def test_rerun_opens_the_dataset(imitate, run, steps, tmp_path):
                 rows[str(chunk.entity_path)] += chunk.num_rows
     for entity in ("/observation.images.camera", "/observation.state", "/action"):
         assert rows[entity] == len(steps)
+
+
+def test_a_dataset_is_of_one_robot(imitate, run, tmp_path):
+    """The simulated Katana has the joints of the ideal arm, and is another robot all the same."""
+
+    def tell(name, told):
+        return told | {"robot": "katana_sim"} if name == "run" else told
+
+    rewrite(run / "run.mcap", tmp_path / "other.mcap", tell=tell, sealed=True)
+    result = imitate("export", str(run), "other.mcap", "--to", "lerobot", "set")
+    assert result.exit_code == 2 and result.stderr.count("\n") == 1
+    assert "a LeRobot dataset is of one robot" in result.stderr
+    assert not (tmp_path / "set").exists()
 
 
 def test_an_export_that_fails_leaves_nothing(imitate, run, tmp_path, monkeypatch):

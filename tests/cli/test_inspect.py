@@ -6,7 +6,7 @@ from contextlib import closing
 
 import numpy as np
 import pytest
-from mcap.writer import Writer
+from mcap.writer import IndexType, Writer
 from rosbags.rosbag2 import StoragePlugin
 from rosbags.rosbag2 import Writer as BagWriter
 from rosbags.typesys import Stores, get_typestore
@@ -126,3 +126,18 @@ def test_a_database_that_is_no_bag_is_one_line(imitate, tmp_path):
     assert told.exit_code == 0
     told = imitate("inspect", str(tmp_path))
     assert told.exit_code == 2 and "no recording in" in told.stderr
+
+
+def test_messages_out_of_order_last_from_the_first_to_the_last(imitate, tmp_path):
+    """And a file without an index is none of ours, but sound."""
+    with (tmp_path / "a.mcap").open("wb") as stream:
+        writer = Writer(stream, index_types=IndexType.NONE, use_summary_offsets=False)
+        writer.start(profile="ros2")
+        channel = writer.register_channel("/late", "json", 0)
+        for time_ns in (9_000_000_000, 5_000_000_000):
+            writer.add_message(channel, time_ns, b"{}", time_ns)
+        writer.finish()
+    told = json.loads(imitate("inspect", "a.mcap", "--json").stdout)
+    assert told["lasted_s"] == 4.0 and told["topics"][0]["messages"] == 2
+    for command in ("verify", "recover"):
+        assert "its record `run` is missing" in imitate(command, "a.mcap").stderr

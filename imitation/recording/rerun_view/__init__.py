@@ -12,6 +12,7 @@ from imitation.recording.rerun_view.demonstration import Demonstration
 from imitation.recording.rerun_view.drawing import Drawing
 from imitation.recording.rerun_view.live import LiveView
 from imitation.recording.rerun_view.panels import blueprint
+from imitation.recording.rerun_view.saving import saving
 from imitation.recording.rerun_view.screenshot import screenshot
 
 __all__ = ["LiveView", "derive", "screenshot"]
@@ -36,6 +37,10 @@ def derive(run: Path, rrd: Path, demonstration: Path | None = None) -> None:
     try:
         _draw(recording, unfinished, demonstration)
         unfinished.replace(rrd)
+    except OSError as error:
+        if error.filename == str(unfinished):
+            error.filename = str(rrd)
+        raise
     finally:
         unfinished.unlink(missing_ok=True)
 
@@ -43,8 +48,7 @@ def derive(run: Path, rrd: Path, demonstration: Path | None = None) -> None:
 def _draw(recording: Recording, rrd: Path, demonstration: Path | None) -> None:
     shown = Overview.of(recording)
     stream = rr.RecordingStream("imitation", send_properties=False)
-    stream.save(rrd, default_blueprint=blueprint(shown, demonstration is not None))
-    try:
+    with saving(stream, rrd, blueprint(shown, demonstration is not None)):
         drawing = Drawing(shown)
         drawing.draw_constants(stream)
         if demonstration is not None:
@@ -52,5 +56,3 @@ def _draw(recording: Recording, rrd: Path, demonstration: Path | None) -> None:
         chunks = recording.chunks()
         while told := list(itertools.islice(chunks, CHUNKS_AT_ONCE)):
             drawing.draw(stream, Batch(itertools.chain.from_iterable(told), recording.topics))
-    finally:
-        stream.disconnect()
