@@ -8,7 +8,7 @@ import numpy as np
 from imitation.arrays import Array, Mask
 from imitation.gaze import VisualSpace
 from imitation.robot import Observation
-from imitation.visual_field import VisualField
+from imitation.visual_field import VisualField, most_active
 
 
 class Detector(Protocol):
@@ -51,12 +51,8 @@ class Perception:
         places = places[np.isfinite(places[:, 0])] + observation.place_noise
         activity, means = self.field.activity(places), self.field.mean_places(places)
         if attended is None:
-            counting = places[~self.field.inside(~self._around_most(activity), places)]
+            counting = places[~self.field.inside(~self.field.around(most_active(activity)), places)]
         else:
             counting = places[self.field.inside(attended, places)]
         hand = counting.sum(axis=0) / len(counting) if len(counting) else None
         return Percept(observation.frame_time_ns, hand, activity, means, places)
-
-    def _around_most(self, activity: Array) -> Mask:
-        row, column = np.unravel_index(activity.argmax(), activity.shape)
-        return self.field.around((int(row), int(column)))

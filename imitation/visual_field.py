@@ -82,8 +82,7 @@ class VisualField:
         activity = self.activity(place[None])
         if not activity.any():
             return None
-        row, column = np.unravel_index(activity.argmax(), self.shape)
-        return int(row), int(column)
+        return most_active(activity)
 
     def into(self, place: Array, area: Area, margin: float = 0.0) -> Array:
         """The place in `area`, `margin` from its border, that is nearest to `place`, (2,) [px]."""
@@ -112,6 +111,12 @@ class VisualField:
         x_edges, y_edges = self.edges
         columns = x_edges.searchsorted(places[:, 0], side="right")
         return y_edges.searchsorted(places[:, 1], side="right"), columns
+
+
+def most_active(activity: Array) -> Area:
+    """The area with the largest activity (rows, columns); among equals the first one."""
+    row, column = np.unravel_index(activity.argmax(), activity.shape)
+    return int(row), int(column)
 
 
 def winner_take_all(visual_input: Array) -> Array:

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from imitation.arrays import Array
-from imitation.visual_field import Area, VisualField
+from imitation.visual_field import Area, VisualField, most_active
 
 
 @dataclass(frozen=True)
@@ -72,8 +72,7 @@ class VisualStates:
         return self._new_state(time)
 
     def _winner(self, visual_input: Array, hand: Array) -> Area:
-        row, column = np.unravel_index(visual_input.argmax(), visual_input.shape)
-        strongest = int(row), int(column)
+        strongest = most_active(visual_input)
         if self._area is None:
             return strongest
         if np.linalg.norm(hand - self.field.into(hand, self._area)) > self.resting.still:

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from imitation.arrays import Array, Index, Mask
 from imitation.regression import locally_linear
-from imitation.visual_field import Area, VisualField
+from imitation.visual_field import Area, VisualField, most_active
 
 
 def neighbourhood(neurons: int, excitation: float, inhibition: float) -> Array:
@@ -111,8 +111,8 @@ class VisuoMotorMap:
         """The area whose cluster learns: the most active one (eq. 3), if it is within reach."""
         if visual_input.max() < self.learning.min_activity:
             return None
-        row, column = np.unravel_index(visual_input.argmax(), visual_input.shape)
-        return (int(row), int(column)) if self.field.reachable[row, column] else None
+        area = most_active(visual_input)
+        return area if self.field.reachable[area] else None
 
     def attractors(self, selection: Array, posture: Array) -> Attractors:
         """Postures of the selected learned areas, of each cluster the one nearest to `posture`.

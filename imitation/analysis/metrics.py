@@ -108,7 +108,8 @@ class ReachMetrics:
             trial["final_distance_px"] = sample.decision.distance
         if trial["time_s"] is None:
             trial["path_length_px"] = self._path_length()
-        apart = np.abs(sample.seen.posture - np.array(trial["start_posture"])) / self.body.speed
+        assert self._first is not None
+        apart = np.abs(sample.seen.posture - self._first.seen.posture) / self.body.speed
         trial["time_bound_s"] = float(apart.max())
 
     def _tell(self, kind: str, sample: Sample, trial: dict[str, Any]) -> None:

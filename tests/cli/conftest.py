@@ -2,7 +2,7 @@
 
 import json
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -43,9 +43,25 @@ def imitate(tmp_path, monkeypatch) -> Iterator[Imitate]:
 
 
 @pytest.fixture(scope="session")
-def learned(tmp_path_factory) -> Path:
+def ran(tmp_path_factory) -> Callable[..., Path]:
+    """Runs a command on the ideal arm and returns its folder, which many tests may look at."""
+
+    def finished(command: str, *words: str) -> Path:
+        folder: Path = tmp_path_factory.mktemp(command) / "run"
+        told = CliRunner().invoke(app, [command, "robot=ideal", *words, f"out={folder}"])
+        assert told.exit_code == 0, told.output
+        return folder
+
+    return finished
+
+
+@pytest.fixture(scope="session")
+def learned(ran) -> Path:
     """Folder of a finished learn-map run, shared by all tests: not to be changed."""
-    folder = tmp_path_factory.mktemp("learned") / "map"
-    result = CliRunner().invoke(app, ["learn-map", "robot=ideal", f"out={folder}"])
-    assert result.exit_code == 0, result.output
-    return folder
+    return ran("learn-map")
+
+
+@pytest.fixture(scope="session")
+def reached_shortly(ran, learned) -> Path:
+    """Folder of a few steps of reaching, shared by all tests: not to be changed."""
+    return ran("reach", "reach.limit=1.2", "reach.required=0", f"map={learned}")

@@ -52,15 +52,9 @@ def killed(folder, words, after, robot="ideal"):
 
 
 @pytest.fixture(scope="module")
-def action(tmp_path_factory):
+def action(ran):
     """Folder of an action that was watched: not to be changed."""
-    from typer.testing import CliRunner
-
-    from cli.main import app
-
-    folder = tmp_path_factory.mktemp("action") / "run"
-    CliRunner().invoke(app, ["demo-record", "robot=ideal", f"out={folder}"])
-    return folder
+    return ran("demo-record")
 
 
 def check_recovered(imitate, run):

@@ -82,15 +82,9 @@ def learn_with(folder, *words):
 
 
 @pytest.fixture(scope="module")
-def action(tmp_path_factory):
+def action(ran):
     """Text of an action."""
-    from typer.testing import CliRunner
-
-    from cli.main import app
-
-    folder = tmp_path_factory.mktemp("action") / "run"
-    CliRunner().invoke(app, ["demo-record", "robot=ideal", f"out={folder}"])
-    return (folder / "action.json").read_text()
+    return (ran("demo-record") / "action.json").read_text()
 
 
 def check_map(learned, tmp_path, capsys, damage):

@@ -12,16 +12,10 @@ from imitation.recording.recorded_steps import steps_told
 
 
 @pytest.fixture(scope="module")
-def run(learned, tmp_path_factory):
+def run(ran, learned):
     """A short reach with noise: not to be changed."""
-    from typer.testing import CliRunner
-
-    from cli.main import app
-
-    folder = tmp_path_factory.mktemp("explained") / "run"
-    words = ["robot=ideal", "reach.limit=1", "reach.required=0", "trials=2", "controller=yuragi"]
-    CliRunner().invoke(app, ["reach", *words, f"map={learned}", f"out={folder}"])
-    return folder
+    words = ["reach.limit=1", "reach.required=0", "trials=2", "controller=yuragi"]
+    return ran("reach", *words, f"map={learned}")
 
 
 def reason_at(run, seconds):

@@ -18,17 +18,10 @@ from imitation.recording.recorded_steps import steps_told
 
 
 @pytest.fixture(scope="module")
-def run(learned, tmp_path_factory):
+def run(ran, learned):
     """Two short reaches: not to be changed."""
-    from typer.testing import CliRunner
-
-    from cli.main import app
-
-    folder = tmp_path_factory.mktemp("exported") / "run"
-    words = ["robot=ideal", "reach.limit=0.6", "reach.required=0", "trials=2", "controller=yuragi"]
-    told = CliRunner().invoke(app, ["reach", *words, f"map={learned}", f"out={folder}"])
-    assert told.exit_code == 0, told.output
-    return folder
+    words = ["reach.limit=0.6", "reach.required=0", "trials=2", "controller=yuragi"]
+    return ran("reach", *words, f"map={learned}")
 
 
 @pytest.fixture(scope="module")

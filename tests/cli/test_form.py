@@ -17,17 +17,8 @@ from imitation.recording.messages import JOINT_STATE
 
 
 @pytest.fixture(scope="module")
-def run(learned, tmp_path_factory):
-    """A few steps of reaching: not to be changed."""
-    from typer.testing import CliRunner
-
-    from cli.main import app
-
-    folder = tmp_path_factory.mktemp("form") / "run"
-    words = ["robot=ideal", "reach.limit=1.2", "reach.required=0", f"map={learned}"]
-    told = CliRunner().invoke(app, ["reach", *words, f"out={folder}"])
-    assert told.exit_code == 0, told.output
-    return folder
+def run(reached_shortly):
+    return reached_shortly
 
 
 def of(kind, named, /, **new):
