@@ -9,9 +9,20 @@ import numpy as np
 
 
 def write_json(path: Path, content: dict[str, Any]) -> None:
-    """Write a file for people and programs; what is no number becomes null."""
+    """Write a file for people and programs; what is no number becomes null.
+
+    Raises:
+        OSError: It cannot be written; what was there before is there still.
+    """
     text = json.dumps(plain(content), indent=2, allow_nan=False, ensure_ascii=False)
-    path.write_text(f"{text}\n", encoding="utf-8")
+    unfinished = path.with_name(f".{path.name}")
+    try:
+        unfinished.write_text(f"{text}\n", encoding="utf-8")
+        unfinished.replace(path)
+    except OSError as error:
+        unfinished.unlink(missing_ok=True)
+        error.filename = str(path)  # what was asked for, not the hidden one
+        raise
 
 
 def plain(value: Any) -> Any:

@@ -1,6 +1,4 @@
 import dataclasses
-import resource
-import signal
 import subprocess
 import sys
 import time
@@ -11,6 +9,7 @@ import numpy as np
 import pytest
 from mcap.writer import CompressionType, Writer
 from rosbags.highlevel import AnyReader
+from small_files import files_up_to
 
 from imitation.recording import mcap_file, recorder
 from imitation.recording.mcap_recording import Recording
@@ -136,17 +135,10 @@ def test_file_that_exists_is_not_overwritten(record):
 def test_full_disk_is_told_in_the_loop_and_leaves_a_readable_file(tmp_path):
     path = tmp_path / "run.mcap"
     steps = made_up.run(10_000)
-    soft, hard = resource.getrlimit(resource.RLIMIT_FSIZE)
-    ignored = signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
-    resource.setrlimit(resource.RLIMIT_FSIZE, (60_000, hard))
-    try:
-        told = pytest.raises(RecorderError, match=r"run.mcap cannot be written: File too large")
-        with told, made_up.recorder(path) as recorder:
-            for sample, truths in steps:
-                recorder.write(sample, truths)
-    finally:
-        resource.setrlimit(resource.RLIMIT_FSIZE, (soft, hard))
-        signal.signal(signal.SIGXFSZ, ignored)
+    told = pytest.raises(RecorderError, match=r"run.mcap cannot be written: File too large")
+    with files_up_to(60_000), told, made_up.recorder(path) as recorder:
+        for sample, truths in steps:
+            recorder.write(sample, truths)
     assert next(steps)[0].seen.time_ns < 10_000 * made_up.PERIOD_NS  # told long before the end
     recording = Recording.open(path)
     assert not recording.whole and any(recording.messages("/joint_states"))
