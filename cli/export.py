@@ -10,6 +10,7 @@ from cli.errors import DONE, UserError, no_such
 from cli.folder import check_writable
 from cli.inspect import size
 from cli.printed import on_stdout
+from cli.progress import at_work
 from cli.recompute import configuration
 from imitation.analysis.lerobot import Dataset
 from imitation.analysis.seal import cited
@@ -50,7 +51,8 @@ def write_whole(out: Path, write: Callable[[Path], None]) -> None:
     _clear_what_was_killed(out)
     unfinished = out.with_name(f".{out.stem}-{os.getpid()}{out.suffix}")
     try:
-        write(unfinished)
+        with at_work(f"writing {out}"):
+            write(unfinished)
         unfinished.rename(out)
     except OSError as error:
         error.filename = str(out)  # what was asked for, not the hidden one

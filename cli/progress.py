@@ -1,15 +1,22 @@
-"""Shows on stderr how a run goes on: a bar on a terminal, a plain line now and then otherwise."""
+"""Shows on stderr how work goes on: a bar on a terminal, a plain line now and then otherwise."""
 
 import sys
 import time
+from contextlib import AbstractContextManager
 
 from rich.console import Console
 from rich.progress import Progress, SpinnerColumn, TextColumn
+from rich.text import Text
 
 from imitation.sample import Sample
 
 REFRESH = 0.1  # of the bar [s]
 PAUSE = 5.0  # between plain lines [s]
+
+
+def at_work(what: str) -> AbstractContextManager[object]:
+    """Tells on a terminal what goes on, as long as it does."""
+    return Console(stderr=True).status(Text(what), refresh_per_second=1 / REFRESH)
 
 
 class ProgressReport:

@@ -18,6 +18,7 @@ from cli.config_dir import not_known, values
 from cli.errors import UserError, is_refusal, no_such
 from cli.jobs.reach import trials_of
 from cli.keys import known_targets
+from cli.progress import at_work
 from cli.provenance import another_program, its_program
 from cli.replaying import replaying
 from cli.run import ATTACHED
@@ -81,7 +82,8 @@ def anew(recording: Recording, words: Sequence[str] = ()) -> Iterator[Anew]:
     command = recording.metadata["run"].get("command", "")
     if command not in STAGES:
         raise UserError(f"{recording.path}: {no_such('stage', command, sorted(STAGES))}")
-    with TemporaryDirectory() as folder:
+    what = f"{recording.path.absolute().parent.name}: deciding anew"
+    with TemporaryDirectory() as folder, at_work(what):
         cfg = _understood(recording, command, words, Path(folder))
         bench = Bench(cfg)
         told, fed = tee(steps_told(recording))

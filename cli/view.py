@@ -8,6 +8,7 @@ from pathlib import Path
 from cli.errors import DEVICE, DONE, UserError, say
 from cli.folder import check_writable
 from cli.printed import on_stdout
+from cli.progress import at_work
 from imitation.recording.run_files import file_in, next_free
 from imitation.recording.yaml_reading import read_yaml
 
@@ -63,7 +64,8 @@ def derive_rrd(recording: Path, rrd: Path) -> None:
     os.environ.setdefault("RUST_LOG", "error")  # Rerun warns of meshes it does not find
     from imitation.recording.rerun_view import derive  # takes a second
 
-    derive(recording, rrd, demonstration_of(recording.parent))
+    with at_work(f"making {rrd}"):
+        derive(recording, rrd, demonstration_of(recording.parent))
 
 
 def demonstration_of(run: Path) -> Path | None:
