@@ -37,7 +37,7 @@ def learn(run: Run) -> Outcome:
     return Outcome(
         metrics=metrics,
         rows=map_card(metrics),
-        next=reach_with("{run}", run.typed),
+        next=reach_with("{run}", run.typed) if metrics["areas_learned"] else "imitate view {run}",
         complaint=complaint(metrics, limit),
     )
 

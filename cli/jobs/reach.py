@@ -60,6 +60,8 @@ def the_map(run: Run) -> LearnedMap:
     """The map that `map=` names, if it is this body's."""
     named = Path(str(run.cfg["map"])).expanduser()
     stored = load_map(named)
+    if not stored.map.learned.any():
+        raise UserError(f"map={named} holds no learned area; learn another: imitate learn-map")
     run.uses("map", file_in(named, "map.npz"))
     bench, field = run.bench, stored.map.field
     present = fingerprint(bench.robot.body, field, bench.learning_space)

@@ -179,10 +179,14 @@ def test_a_check_is_told_from_a_bug():
             assert is_refusal(error) is refused
 
 
-def test_no_red_thing_in_view_is_said(imitate):
-    result = imitate("learn-map", "robot=ideal", "vision.hue=[80,100]", "learning.patience=2")
+def test_no_red_thing_in_view_is_said_and_its_map_is_refused(imitate, tmp_path):
+    unseen = ("robot=ideal", "vision.hue=[80,100]", "learning.patience=2")
+    result = imitate("learn-map", *unseen, f"out={tmp_path / 'empty'}")
     assert result.exit_code == 1
     assert "the hand was never seen" in result.stderr
+    assert "next   imitate view" in result.stdout
+    result = imitate("mimic", f"map={tmp_path / 'empty'}", "robot=ideal")
+    one_line(result, "holds no learned area")
 
 
 @pytest.mark.parametrize("name", ["x" * 5000, "file/run", "./" * 3000])
