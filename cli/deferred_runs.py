@@ -30,7 +30,7 @@ def demonstrated(seed: int, *words: str, look: Look | None = None) -> Action:
         if look:
             look(sample, bench)
     bench.robot.close()
-    return Action.watched(bench.field, states.states)
+    return Action.watched(bench.field, states.states, bench.cfg["demo"]["margin"])
 
 
 def replayed(

@@ -109,6 +109,7 @@ class Watching(Section):
 
     duration: Positive
     gone: Positive
+    margin: Annotated[float, Within(ge=0, le=10)]
 
 
 class VisualStates(Section):

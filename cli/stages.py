@@ -47,7 +47,7 @@ def rules(bench: Bench) -> Reaching:
 def watching(bench: Bench) -> tuple[VisualStates, Iterator[Sample]]:
     """The states that will be found in a demonstration, and the steps of watching it."""
     cfg, states = bench.cfg, VisualStates(Resting(**bench.cfg["states"]), bench.field)
-    settings, perception = Watching(**cfg["demo"]), bench.perception(bench.field)
+    settings, perception = made_of(Watching, cfg["demo"]), bench.perception(bench.field)
     return states, demo_record(
         bench.robot, perception, bench.dynamics, states, settings, bench.rest
     )

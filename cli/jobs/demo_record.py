@@ -30,7 +30,8 @@ def watch(run: Run) -> Outcome:
     states = found.states
     if len(states) >= 2:
         made_by = f"imitate demo-record, version {program_version()}"
-        save_action(run.folder / "action.json", Action.watched(run.bench.field, states), made_by)
+        action = Action.watched(run.bench.field, states, run.cfg["demo"]["margin"])
+        save_action(run.folder / "action.json", action, made_by)
     delays = [round(later.time - state.time, 6) for state, later in pairwise(states)]
     played, complaint = play(run.bench, states)
     errors = [round(again - delay, 6) for again, delay in zip(played, delays, strict=False)]

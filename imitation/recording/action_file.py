@@ -21,7 +21,6 @@ from imitation.visual_states import VisualState
 VERSION = 1  # of the file's layout
 MAX_BYTES = 2**18  # an action of a thousand states is smaller
 LATEST = 1e6  # longest time that any demonstration takes [s]
-MARGIN = 2.0  # of an area, in which a hand that reproduces an action might miss it [px]
 ROUNDING_PX, ROUNDING_S = 0.01, 0.001
 LIST = re.compile(r"\[\s+([^\[\]{}]*?)\s+\]")
 
@@ -34,12 +33,17 @@ class Action:
     states: tuple[VisualState, ...]  # two or more
 
     @classmethod
-    def watched(cls, field: VisualField, states: Sequence[VisualState]) -> "Action":
+    def watched(cls, field: VisualField, states: Sequence[VisualState], margin: float) -> "Action":
         """An action as it was watched.
 
         A hand may rest on a border: its place is told within its area, for others to come there.
+
+        Args:
+            field: In which it was watched.
+            states: Two or more.
+            margin: A place is told at least this far from the border of its area [px].
         """
-        inside = (replace(one, place=field.into(one.place, one.area, MARGIN)) for one in states)
+        inside = (replace(one, place=field.into(one.place, one.area, margin)) for one in states)
         return cls(field, tuple(inside))
 
 

@@ -74,7 +74,7 @@ def test_an_action_survives_its_file(file):
 def test_a_rest_on_a_border_is_told_within_its_area():
     at_border, inside = np.array([99.4, 60.5]), np.array([52.0, 75.0])
     states = VisualState((1, 3), at_border, 0.0), VisualState((2, 1), inside, 1.0)
-    told = [state.place.tolist() for state in Action.watched(FIELD, states).states]
+    told = [state.place.tolist() for state in Action.watched(FIELD, states, 2.0).states]
     assert told == [[102.0, 58.0], [52.0, 75.0]]
 
 
