@@ -48,9 +48,10 @@ def test_a_joint_is_never_sent_beyond_its_range(model, tmp_path):
     with wired(model, tmp_path, following=9.0) as (arm, wire, _):
         arm.reset(arm.body.lower)
         towards_the_stop = -np.sign(SLOW) * 0.7
-        seen = go(arm, wire, towards_the_stop, 6)
-        assert (seen.posture >= arm.body.lower - 1e-3).all()
-        assert (seen.posture <= arm.body.upper + 1e-3).all()
+        for velocity, steps in ((towards_the_stop, 6), (-towards_the_stop, 60)):
+            seen = go(arm, wire, velocity, steps)
+            assert (seen.posture >= arm.body.lower - 1e-3).all()
+            assert (seen.posture <= arm.body.upper + 1e-3).all()
 
 
 @EVERY

@@ -12,6 +12,7 @@ from imitation.robot import Body, JointReading
 from imitation.robots.katana.commands import TICK, Flag, as_segments
 from imitation.robots.katana.driver import Katana, refuse_crashed
 from imitation.robots.katana.frames import BadReplyError
+from imitation.robots.katana.models import Model
 from imitation.robots.katana.sensors import GripperSensing
 from imitation.robots.katana.start import ACCELERATION, FASTEST, Settings, make_ready
 from imitation.robots.keeping_up import KeepingUp
@@ -44,7 +45,7 @@ class KatanaArm:
         self.katana, self.body = katana, body
         self._settings, self._sensing, self._clock = settings, sensing, clock
         self.identity = katana.identity()
-        self._lower, self._upper = katana.model.limits
+        self._lower, self._upper = encoder_limits(body, katana.model)
         self._ready = False
         self._sent = self._sensed = katana.positions().astype(float)  # [encoders]
         self._read_at = clock()
@@ -72,7 +73,7 @@ class KatanaArm:
         target = self._sent.copy()
         target[:5] += velocity * model.per_radian * ticks * TICK
         target[5] += self._finger_step(ticks * TICK)
-        target = np.clip(target, self._lower, self._upper)
+        target = self._within(target)
         if model.moves_all:
             self._all_towards(target, ticks)
         else:
@@ -123,6 +124,11 @@ class KatanaArm:
             self._ready = False
             self.katana.close()
 
+    def _within(self, target: Array) -> Array:
+        """What of a target [encoders] keeps the limits, or leads back from beyond them."""
+        lower, upper = np.minimum(self._lower, self._sent), np.maximum(self._upper, self._sent)
+        return np.asarray(np.clip(target, lower, upper))
+
     def _ticks(self, period: float) -> int:
         """How long the next segment lasts, so that the arm has done it a period from now.
 
@@ -167,7 +173,7 @@ class KatanaArm:
         # Each motor brakes before its target: one that goes on is sent as much further.
         speed = (target - self._sent) / period * TICK
         further = np.sign(speed) * speed**2 / (2 * ACCELERATION)
-        ahead = np.clip(np.round(target + further), self._lower, self._upper)
+        ahead = self._within(np.round(target + further))
         for motor, moves in enumerate(ahead != self._ahead, 1):
             if moves:
                 self.katana.move(motor, int(ahead[motor - 1]))
@@ -181,3 +187,11 @@ class KatanaArm:
             self._nearby = (self._sensing.proximity(sensors), self._sensing.touching(sensors))
         else:
             refuse_crashed(self.katana.statuses())
+
+
+def encoder_limits(body: Body, model: Model) -> tuple[Array, Array]:
+    """Smallest and largest encoder of the six motors, (6,) each: a body's limits and the arm's."""
+    lower, upper = model.limits
+    ends = np.sort([model.encoders(body.lower), model.encoders(body.upper)], axis=0)
+    within = np.maximum(lower[:5], np.ceil(ends[0])), np.minimum(upper[:5], np.floor(ends[1]))
+    return np.append(within[0], lower[5]), np.append(within[1], upper[5])
