@@ -106,6 +106,7 @@ class Guard(Section):
 
     margin: NotNegative
     least_clearance: NotNegative
+    late: Annotated[float, Within(ge=0, le=1)]
     points: Annotated[list[GuardPoint], Within(min_length=1)]
     trunk: list[GuardPoint]
     table_height: float

@@ -34,6 +34,8 @@ class Guard:
         margin: Kept from the joint limits [rad].
         surroundings: What must not be touched; None for an arm that stands free.
         least_clearance: Kept from the surroundings [m].
+        late: How long after it was sent a movement is done: so far the arm goes on from where it
+            is sensed to be [s].
     """
 
     lower: Array
@@ -43,6 +45,7 @@ class Guard:
     margin: float
     surroundings: Surroundings | None
     least_clearance: float
+    late: float
 
     def posture_within_limits(self, posture: Array) -> Array:
         """`posture` [rad] itself; refused when it lies beyond the joint limits."""
@@ -71,11 +74,12 @@ class Guard:
         Args:
             wanted: Velocity asked for, (n_joints,) [rad/s].
             before: Velocity of the last period, (n_joints,) [rad/s].
-            posture: Present posture, (n_joints,) [rad].
+            posture: Sensed posture, (n_joints,) [rad].
             period: Control period [s].
         """
         if not np.isfinite(posture).all():
             return self._braked(before, period), ("not a number",)
+        posture = posture + before * self.late
         if not np.isfinite(wanted).all():
             return self._braked_clear(before, posture, period), ("not a number",)
         reasons: list[str] = []

@@ -24,6 +24,7 @@ GUARD = Guard(
     margin=0.02,
     surroundings=None,
     least_clearance=0.0,
+    late=0.0,
 )
 
 hostile = arrays.arrays(
@@ -50,11 +51,12 @@ class Ride:
 
 
 def ride(guard: Guard, start: Array, wanted: Sequence[tuple[Array, int]]) -> Ride:
-    """An ideal arm that is asked for each velocity for so many periods."""
+    """An ideal arm, as late as the guard knows, that is asked for each velocity for so long."""
     postures, velocities = [start], [np.zeros(JOINTS)]
     for wish, periods in wanted:
         for _ in range(periods):
-            limited, _ = guard.limit(wish, velocities[-1], postures[-1], PERIOD)
+            sensed = postures[-1] - velocities[-1] * guard.late
+            limited, _ = guard.limit(wish, velocities[-1], sensed, PERIOD)
             velocities.append(limited)
             postures.append(postures[-1] + limited * PERIOD)
     return Ride(np.array(postures), np.array(velocities))
@@ -187,9 +189,9 @@ def within_joint_limits(guard: Guard, done: Ride) -> bool:
 
 
 @settings(max_examples=200)
-@given(before_the_wall, wishes)
-def test_whatever_is_asked_the_arm_keeps_clear_of_a_wall(start, wanted):
-    done = ride(WALLED, start, wanted)
+@given(before_the_wall, wishes, st.sampled_from([0.0, 0.1]))
+def test_whatever_is_asked_the_arm_keeps_clear_of_a_wall(start, wanted, late):
+    done = ride(replace(WALLED, late=late), start, wanted)
     assert Wall().clearance(done.postures).min() >= WALLED.least_clearance - 1e-9
 
 

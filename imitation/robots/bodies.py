@@ -133,6 +133,7 @@ def guard_of(
     body: Body,
     margin: float,
     least_clearance: float,
+    late: float,
     urdf: str,
     base: Numbers,
     head: Numbers,
@@ -175,6 +176,7 @@ def guard_of(
         margin=margin,
         surroundings=around,
         least_clearance=least_clearance,
+        late=late,
     )
 
 

@@ -59,8 +59,8 @@ def events(folder: Path) -> dict[str, str]:
     return {message.name: message.msg for _, message in recording.messages("/events")}
 
 
-def largest_true_distance(folder: Path, robot: str) -> float:
-    """Of the mark from the target over all holds of a reach run [px].
+def true_distances(folder: Path, robot: str) -> list[float]:
+    """Largest distance of the mark from the target in each hold of a reach run [px].
 
     A twin's arm stands where its emulated joints say.
     """
@@ -74,13 +74,14 @@ def largest_true_distance(folder: Path, robot: str) -> float:
             target = np.array(json.loads(event.msg[event.msg.index("{") :])["target_px"])
         since = time_ns if event.name == "settled" else since
         held += [(target, since, time_ns)] if event.name == "held" else []
-    away = [0.0]
+    away = [0.0 for _ in held]
     for time_ns, joints in recording.messages("/joint_states"):
-        for target in (one for one, first, last in held if first <= time_ns <= last):
-            arm.reset(np.array(joints.position))
-            seen = space.project(arm.truth()[0], np.array(cfg["camera"]["eye"]))
-            away.append(float(np.linalg.norm(seen - target)))
-    return max(away)
+        for number, (target, first, last) in enumerate(held):
+            if first <= time_ns <= last:
+                arm.reset(np.array(joints.position))
+                seen = space.project(arm.truth()[0], np.array(cfg["camera"]["eye"]))
+                away[number] = max(away[number], float(np.linalg.norm(seen - target)))
+    return away
 
 
 def grips(folder: Path) -> list[dict]:
@@ -121,8 +122,11 @@ def test_a_map_learned_through_the_wire_reaches(kind, tmp_path):
     assert reached.returncode == 0, reached.stderr
     metrics = json.loads((tmp_path / "reach" / "metrics.json").read_text())
     assert all(trial["final_distance_px"] < 3 for trial in metrics["trials"])
-    simulated, near = ("so101_sim", 4) if kind == "so101" else ("katana_sim", 3)
-    assert 0 < largest_true_distance(tmp_path / "reach", simulated) < near
+    away = true_distances(tmp_path / "reach", "so101_sim" if kind == "so101" else "katana_sim")
+    assert len(away) == 6
+    # The joints are read a little before the frame is taken, and JPEG moves what is seen.
+    assert sorted(away)[-2] < 3
+    assert max(away) < 3.5
     assert metrics["late_ticks"] < 0.05 * metrics["steps"]
 
 

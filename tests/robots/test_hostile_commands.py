@@ -96,9 +96,10 @@ def wishes(rng: np.random.Generator, joints: int):
 
 
 def ride(robot: Robot, witness: Witness, steps: int, seed: int, earlier: float = EARLIER) -> None:
-    """So many hostile steps; every velocity that reaches the arm is within its limits."""
+    """So many hostile steps; every velocity and place is within its limits."""
     rng, body = np.random.default_rng(seed), witness.body
     asked, largest = wishes(rng, len(body.lower)), body.acceleration * robot.period
+    around = robot.guard.surroundings
     before = robot.reset() and witness.velocity
     for step in range(steps):
         seen, applied = robot.step(Command(next(asked), rng.choice(MEANWHILE)))
@@ -110,6 +111,7 @@ def ride(robot: Robot, witness: Witness, steps: int, seed: int, earlier: float =
         assert (change <= largest + ROUNDING).all(), step
         assert (seen.posture >= body.lower - ELSEWHERE).all(), step
         assert (seen.posture <= body.upper + ELSEWHERE).all(), step
+        assert around.clearance(seen.posture[None])[0] > 0, step
         if applied.reasons[:1] == ("stale vision",):
             assert (np.abs(velocity) <= np.abs(before) + ROUNDING).all(), step
         before = velocity
