@@ -28,6 +28,7 @@ STEPS = {
 }
 THROUGH_A_WIRE = 300, 50_000  # for each body that has one
 ELSEWHERE = 0.005  # in an engine the arm is not just where its commands led it [rad]
+SAGS = 0.003  # nor while it moves: its weight may bring it so much nearer than nothing [m]
 
 
 class Witness:
@@ -95,7 +96,9 @@ def wishes(rng: np.random.Generator, joints: int):
             yield rng.uniform(-9, 9, joints) if kind == 3 else wish
 
 
-def ride(robot: Robot, witness: Witness, steps: int, seed: int, earlier: float = EARLIER) -> None:
+def ride(
+    robot: Robot, witness: Witness, steps: int, seed: int, earlier: float, sags: float = 0.0
+) -> None:
     """So many hostile steps; every velocity and place is within its limits."""
     rng, body = np.random.default_rng(seed), witness.body
     asked, largest = wishes(rng, len(body.lower)), body.acceleration * robot.period
@@ -111,7 +114,7 @@ def ride(robot: Robot, witness: Witness, steps: int, seed: int, earlier: float =
         assert (change <= largest + ROUNDING).all(), step
         assert (seen.posture >= body.lower - ELSEWHERE).all(), step
         assert (seen.posture <= body.upper + ELSEWHERE).all(), step
-        assert around.clearance(seen.posture[None])[0] > 0, step
+        assert around.clearance(seen.posture[None])[0] > -sags, step
         if applied.reasons[:1] == ("stale vision",):
             assert (np.abs(velocity) <= np.abs(before) + ROUNDING).all(), step
         before = velocity
@@ -140,7 +143,7 @@ def test_nothing_beyond_a_limit_reaches_a_simulated_arm_for_long(body):
 def simulated_ride(body: str, steps: int, seed: int) -> None:
     parts = bench("learn-map", f"robot={body}")
     robot, witness = troubled(parts, parts.robot.arm)
-    ride(robot, witness, steps, seed, EARLIER if body == "ideal" else AT_ONCE)
+    ride(robot, witness, steps, seed, *((EARLIER,) if body == "ideal" else (AT_ONCE, SAGS)))
     robot.close()
 
 
@@ -186,7 +189,7 @@ def katana_ride(model: str, steps: int, folder: Path) -> None:
     with wired(model, folder) as (arm, wire, parts):
         arm.reset(arm.body.lower)
         robot, witness = troubled(parts, Patient(arm, wire))
-        ride(robot, witness, steps, seed=9, earlier=AT_ONCE)
+        ride(robot, witness, steps, 9, AT_ONCE)
         share = arm.katana.model.per_radian * 0.01
         assert (wire.fastest[:5] <= np.ceil(np.abs(arm.body.speed * share)) + 1).all()
         robot.close()
@@ -196,5 +199,5 @@ def katana_ride(model: str, steps: int, folder: Path) -> None:
 def servo_ride(steps: int, folder: Path) -> None:
     with wired_servos(folder) as arm:
         robot, witness = troubled(bench("learn-map", "robot=so101"), Witness(arm))
-        ride(robot, witness, steps, seed=9, earlier=AT_ONCE)
+        ride(robot, witness, steps, 9, AT_ONCE)
         robot.close()
