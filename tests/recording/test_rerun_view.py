@@ -140,7 +140,9 @@ def test_a_screenshot_shows_the_end_or_the_time_asked_for(derived, tmp_path):
 
 
 @pytest.mark.slow
-def test_screenshot_without_a_renderer_says_what_is_missing(derived, tmp_path, monkeypatch):
+@pytest.mark.parametrize("told", ["warn", "error"])  # how much the viewer says
+def test_screenshot_without_a_renderer_says_what_is_missing(derived, tmp_path, monkeypatch, told):
+    monkeypatch.setenv("RUST_LOG", told)
     monkeypatch.setenv("VK_DRIVER_FILES", "/nowhere")
     monkeypatch.setenv("VK_ICD_FILENAMES", "/nowhere")
     rrd, _ = derived()

@@ -18,6 +18,7 @@ from imitation.robot import SECOND
 START = 30.0  # longest wait for the viewer to load the file [s]
 SETTLE = 5.0  # until data is fetched and the viewer's greetings have gone [s]
 SIZE = "1600x1000"  # of the picture [px]
+NO_RENDERER = ("adapter", "wgpu", "render context")  # words of a viewer that has none
 
 
 def screenshot(rrd: Path, png: Path, at: float | None = None) -> None:
@@ -97,7 +98,7 @@ def _why(told: IO[bytes]) -> str:
     """Why the viewer ended, from its words."""
     told.seek(0)
     words = told.read().decode(errors="replace")
-    if "adapter" in words or "wgpu" in words:
+    if any(word in words for word in NO_RENDERER):
         return (
             "a screenshot needs a Vulkan renderer and this machine has none; install a software "
             "one: apt-get install mesa-vulkan-drivers"
