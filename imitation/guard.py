@@ -112,7 +112,7 @@ class Guard:
     def _too_near(self, velocity: Array, posture: Array, period: float) -> bool:
         if self.surroundings is None:
             return False
-        along = self._least_together(velocity, posture, period)
+        along = self._least_together(velocity, posture, period, self.margin)
         if along >= self.least_clearance:
             return False
         # From too near, the way out is open.
@@ -127,15 +127,20 @@ class Guard:
             return each
         step = self.acceleration * period
         together = before * max(0.0, 1.0 - 1.0 / max(float(np.max(np.abs(before) / step)), 1.0))
-        along = self._least_together(together, posture, period)
+        along = self._least_together(together, posture, period, self.margin)
         apart = self._least(self._each_to_rest(each, posture, period))
+        if max(along, apart) < self.least_clearance:
+            # An arm is not quite where it was led: half of the margin is there for that.
+            along = self._least_together(together, posture, period, self.margin / 2)
         return together if along >= apart else each
 
-    def _least_together(self, velocity: Array, posture: Array, period: float) -> float:
+    def _least_together(
+        self, velocity: Array, posture: Array, period: float, margin: float
+    ) -> float:
         way = self._together_to_rest(velocity, posture, period)
         # A joint that waits for the slowest may be carried beyond its own limit.
-        lowest = np.minimum(self.lower + self.margin, posture) - ROUNDING
-        highest = np.maximum(self.upper - self.margin, posture) + ROUNDING
+        lowest = np.minimum(self.lower + margin, posture) - ROUNDING
+        highest = np.maximum(self.upper - margin, posture) + ROUNDING
         within = (lowest <= way[-1]) & (way[-1] <= highest)
         return self._least(way) if within.all() else -np.inf
 

@@ -230,6 +230,24 @@ def test_joints_that_brake_at_different_rates_do_not_dip_into_the_wall_on_their_
     assert guard.surroundings.clearance(done.postures).min() >= 0.1 - 1e-9
 
 
+def test_an_arm_a_little_farther_than_it_was_led_still_brakes_clear_of_a_wall():
+    quick, slow = 4, 2  # the last joint leads away while the third comes to rest at its limit
+
+    @dataclass(frozen=True)
+    class Slant:
+        def clearance(self, postures: Array) -> Array:
+            return 1.0 - postures[:, quick] - postures[:, slow]
+
+    guard = replace(GUARD, surroundings=Slant(), least_clearance=0.1)
+    before, posture = np.zeros(JOINTS), np.zeros(JOINTS)
+    before[slow], before[quick] = 0.8, -0.8
+    braking = sum(0.08 * count * PERIOD for count in range(10))  # 0.8 rad/s in steps of 0.08
+    posture[slow] = guard.upper[slow] - guard.margin - braking + 1e-4
+    posture[quick] = 0.9 - posture[slow]
+    limited, _ = guard.limit(np.full(JOINTS, np.nan), before, posture, PERIOD)
+    assert limited == pytest.approx(0.9 * before)
+
+
 @pytest.fixture(scope="module")
 def katana() -> AroundArm:
     parts = bench("learn-map", "robot=ideal")
