@@ -1,8 +1,5 @@
 """imitate export: recordings as tables, as a film or as a LeRobot dataset."""
 
-import os
-import re
-import shutil
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
@@ -18,6 +15,7 @@ from imitation.analysis.step_table import Column, table
 from imitation.analysis.table_files import joined, write_csv, write_parquet
 from imitation.analysis.video import write_video
 from imitation.recording.mcap_recording import Recording
+from imitation.recording.run_files import write_whole
 from imitation.robot import SECOND
 
 Write = Callable[[Path, Sequence[Recording]], None]
@@ -38,41 +36,13 @@ def export(paths: Sequence[Path], kind: str) -> int:
     empty = [one.path for one in recordings if "/camera/used" not in one.topics]
     if empty:
         raise UserError(f"{empty[0]} holds no step: there is nothing to export")
-    write_whole(out, lambda unfinished: KINDS[kind](unfinished, recordings))
+    out.absolute().parent.mkdir(parents=True, exist_ok=True)
+    check_writable(out, "name another OUT")
+    with at_work(f"writing {out}"):
+        write_whole(out, lambda unfinished: KINDS[kind](unfinished, recordings))
     total = sum(path.stat().st_size for path in (out, *out.rglob("*")) if path.is_file())
     on_stdout().print(f"files  {out}  {size(total)}", markup=False)
     return DONE
-
-
-def write_whole(out: Path, write: Callable[[Path], None]) -> None:
-    """Have `out` written beside itself, and put in its place when all of it is there."""
-    out.absolute().parent.mkdir(parents=True, exist_ok=True)
-    check_writable(out, "name another OUT")
-    _clear_what_was_killed(out)
-    unfinished = out.with_name(f".{out.stem}-{os.getpid()}{out.suffix}")
-    try:
-        with at_work(f"writing {out}"):
-            write(unfinished)
-        unfinished.rename(out)
-    except OSError as error:
-        error.filename = str(out)  # what was asked for, not the hidden one
-        raise
-    finally:
-        _remove(unfinished)
-
-
-def _clear_what_was_killed(out: Path) -> None:
-    """Remove what exports to `out` left when they were killed."""
-    for left in out.absolute().parent.iterdir():
-        found = re.fullmatch(rf"\.{re.escape(out.stem)}-(\d+){re.escape(out.suffix)}", left.name)
-        if found and not Path("/proc", found[1]).exists():
-            _remove(left)
-
-
-def _remove(path: Path) -> None:
-    if path.is_dir():
-        shutil.rmtree(path)
-    path.unlink(missing_ok=True)
 
 
 def _csv(out: Path, recordings: Sequence[Recording]) -> None:

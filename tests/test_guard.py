@@ -195,55 +195,50 @@ def test_whatever_is_asked_the_arm_keeps_clear_of_a_wall(start, wanted, late):
     assert Wall().clearance(done.postures).min() >= WALLED.least_clearance - 1e-9
 
 
-def test_braking_in_proportion_before_a_wall_does_not_carry_a_joint_beyond_its_limit():
-    slow, quick = 2, 4  # the third joint needs six times as long to stop as the last one
+SLOW, QUICK = 2, 4  # of the joints: the last brakes ten times as hard as the third
 
+
+@dataclass(frozen=True)
+class Slant:
+    """The third and the last joint must not add up to more than 1."""
+
+    def clearance(self, postures: Array) -> Array:
+        return 1.0 - postures[:, QUICK] - postures[:, SLOW]
+
+
+def test_braking_in_proportion_before_a_wall_does_not_carry_a_joint_beyond_its_limit():
     @dataclass(frozen=True)
     class Ceiling:
         def clearance(self, postures: Array) -> Array:
-            return 1.0 - postures[:, slow]
+            return 1.0 - postures[:, SLOW]
 
     guard = replace(GUARD, surroundings=Ceiling(), least_clearance=0.1)
     start, rise = np.zeros(JOINTS), np.zeros(JOINTS)
-    start[slow], start[quick] = 0.2, 2.5
-    rise[slow], rise[quick] = 1.2, 1.2
+    start[SLOW], start[QUICK] = 0.2, 2.5
+    rise[SLOW], rise[QUICK] = 1.2, 1.2
     done = ride(guard, start, [(rise, 40)])
     assert guard.surroundings.clearance(done.postures).min() >= 0.1 - 1e-9
     assert within_joint_limits(guard, done)
 
 
 def test_joints_that_brake_at_different_rates_do_not_dip_into_the_wall_on_their_way_to_rest():
-    quick, slow = 4, 2  # the last joint brakes ten times as hard as the third
-
-    @dataclass(frozen=True)
-    class Slant:
-        def clearance(self, postures: Array) -> Array:
-            return 1.0 - postures[:, quick] - postures[:, slow]
-
     guard = replace(GUARD, surroundings=Slant(), least_clearance=0.1)
     approach, dive = np.zeros(JOINTS), np.zeros(JOINTS)
-    approach[slow] = -1.2
-    dive[slow], dive[quick] = -1.2, 2.2
+    approach[SLOW] = -1.2
+    dive[SLOW], dive[QUICK] = -1.2, 2.2
     start = np.zeros(JOINTS)
-    start[slow], start[quick] = 1.4, -0.8
+    start[SLOW], start[QUICK] = 1.4, -0.8
     done = ride(guard, start, [(approach, 16), (dive, 40)])
     assert guard.surroundings.clearance(done.postures).min() >= 0.1 - 1e-9
 
 
 def test_an_arm_a_little_farther_than_it_was_led_still_brakes_clear_of_a_wall():
-    quick, slow = 4, 2  # the last joint leads away while the third comes to rest at its limit
-
-    @dataclass(frozen=True)
-    class Slant:
-        def clearance(self, postures: Array) -> Array:
-            return 1.0 - postures[:, quick] - postures[:, slow]
-
     guard = replace(GUARD, surroundings=Slant(), least_clearance=0.1)
     before, posture = np.zeros(JOINTS), np.zeros(JOINTS)
-    before[slow], before[quick] = 0.8, -0.8
+    before[SLOW], before[QUICK] = 0.8, -0.8
     braking = sum(0.08 * count * PERIOD for count in range(10))  # 0.8 rad/s in steps of 0.08
-    posture[slow] = guard.upper[slow] - guard.margin - braking + 1e-4
-    posture[quick] = 0.9 - posture[slow]
+    posture[SLOW] = guard.upper[SLOW] - guard.margin - braking + 1e-4
+    posture[QUICK] = 0.9 - posture[SLOW]
     limited, _ = guard.limit(np.full(JOINTS, np.nan), before, posture, PERIOD)
     assert limited == pytest.approx(0.9 * before)
 

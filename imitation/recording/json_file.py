@@ -7,6 +7,8 @@ from typing import Any
 
 import numpy as np
 
+from imitation.recording.run_files import write_whole
+
 
 def write_json(path: Path, content: dict[str, Any]) -> None:
     """Write a file for people and programs; what is no number becomes null.
@@ -15,14 +17,7 @@ def write_json(path: Path, content: dict[str, Any]) -> None:
         OSError: It cannot be written; what was there before is there still.
     """
     text = json.dumps(plain(content), indent=2, allow_nan=False, ensure_ascii=False)
-    unfinished = path.with_name(f".{path.name}")
-    try:
-        unfinished.write_text(f"{text}\n", encoding="utf-8")
-        unfinished.replace(path)
-    except OSError as error:
-        unfinished.unlink(missing_ok=True)
-        error.filename = str(path)  # what was asked for, not the hidden one
-        raise
+    write_whole(path, lambda unfinished: unfinished.write_text(f"{text}\n", encoding="utf-8"))
 
 
 def plain(value: Any) -> Any:

@@ -1,5 +1,9 @@
-"""Where the files of runs lie, and how new ones are called: nothing is written over."""
+"""Where the files of runs lie, how new ones are called, and how they are written whole."""
 
+import os
+import re
+import shutil
+from collections.abc import Callable
 from pathlib import Path
 
 
@@ -20,3 +24,35 @@ def next_free(path: Path) -> Path:
     while (new := path.with_name(f"{name}-{number}{suffix}")).exists():
         number += 1
     return new
+
+
+def write_whole(path: Path, write: Callable[[Path], object]) -> None:
+    """Have `write` fill a file or folder beside `path`; it becomes `path` when all of it is there.
+
+    Raises:
+        OSError: It cannot be written; what was there before is there still.
+    """
+    unfinished = path.with_name(f".{path.stem}-{os.getpid()}{path.suffix}")
+    try:
+        _clear_what_was_killed(path)
+        write(unfinished)
+        unfinished.replace(path)
+    except OSError as error:
+        error.filename = str(path)  # what was asked for, not the hidden one
+        raise
+    finally:
+        _remove(unfinished)
+
+
+def _clear_what_was_killed(path: Path) -> None:
+    """Remove what processes that were killed left unfinished of `path`."""
+    for left in path.absolute().parent.iterdir():
+        found = re.fullmatch(rf"\.{re.escape(path.stem)}-(\d+){re.escape(path.suffix)}", left.name)
+        if found and not Path("/proc", found[1]).exists():
+            _remove(left)
+
+
+def _remove(path: Path) -> None:
+    if path.is_dir():
+        shutil.rmtree(path)
+    path.unlink(missing_ok=True)

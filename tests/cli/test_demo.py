@@ -21,7 +21,7 @@ def test_a_command_of_the_demo_composes(typed):
 
 
 @pytest.mark.slow
-@pytest.mark.timeout(900)
+@pytest.mark.timeout(300)
 def test_the_demo_runs(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     assert main() == 0

@@ -84,7 +84,7 @@ class VendorsLibrary:
         for number, target in targets.items():
             self.control(number, 24, target)
         for number, target in targets.items():
-            self._until(lambda n=number, t=target: abs(self.motor(n)[1] - t) < TOLERANCE)
+            self.until(lambda n=number, t=target: abs(self.motor(n)[1] - t) < TOLERANCE)
 
     def move_all(self, targets: tuple[int, ...]) -> None:
         for number, target in zip(MOTORS, targets, strict=True):
@@ -95,12 +95,12 @@ class VendorsLibrary:
             assert 40 not in self.ask(b"N\x01\x00")[1:7]
             return far < TOLERANCE
 
-        self._until(near)
+        self.until(near)
 
     def calibrate(self) -> None:
         if self.model.calibrates_itself:
             self.ask(bytes.fromhex("4300047d00"))
-            self._until(lambda: self.motor(1)[0] != 4)
+            self.until(lambda: self.motor(1)[0] != 4)
             return
         for number in MOTORS:
             self.control(number + 128, 24, 0)
@@ -158,7 +158,7 @@ class VendorsLibrary:
             missing.difference_update(n for n in targets if statuses[n - 1] == 88)
             return not missing
 
-        self._until(over, pause=0.0)
+        self.until(over, pause=0.0)
 
     def error_report(self) -> bytes:
         """What comes for a motor that there is not, on a 400 or 450."""
@@ -180,7 +180,8 @@ class VendorsLibrary:
         for port in (b"r", b"w\1", b"w\0", b"lr", b"lg", b"l\0"):
             self.ask((b"T" + port).ljust(5, b"\0"))
 
-    def _until(self, over: Callable[[], bool], pause: float = 0.2) -> None:
+    def until(self, over: Callable[[], bool], pause: float = 0.2) -> None:
+        """Ask again and again until it is so."""
         until = time.monotonic() + PATIENCE
         while not over():
             assert time.monotonic() < until
