@@ -9,7 +9,7 @@ import cv2
 import numpy as np
 
 from imitation.arrays import Image
-from imitation.jpeg import decoded
+from imitation.jpeg import decoded, encoded
 from imitation.robot import SECOND, Shot
 
 # OpenCV and FFmpeg have words of their own for what we say in one line.
@@ -66,10 +66,7 @@ class Development:
         """What is recorded of a picture as OpenCV reads it, blue first."""
         scaled = ASPECTS[self.aspect](picture, self.size)
         turned = cv2.flip(scaled, 1) if self.mirror else scaled
-        # The colours are kept at full resolution: by them the hand is found.
-        full = (cv2.IMWRITE_JPEG_SAMPLING_FACTOR, cv2.IMWRITE_JPEG_SAMPLING_FACTOR_444)
-        _, data = cv2.imencode(".jpg", turned, (cv2.IMWRITE_JPEG_QUALITY, self.quality, *full))
-        return data.tobytes()
+        return encoded(np.asarray(turned, dtype=np.uint8), self.quality)
 
     def shot(self, jpeg: bytes, time_ns: int) -> Shot:
         """What is seen of a recorded picture."""

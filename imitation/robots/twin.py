@@ -5,11 +5,11 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import Protocol
 
-import cv2
 import numpy as np
 
 from imitation.arrays import Array, Image
 from imitation.gaze import VisualSpace
+from imitation.jpeg import encoded
 from imitation.robots.bullet.arm import BulletArm
 from imitation.robots.demonstrators import Demonstrator, Shown
 from imitation.robots.faults import Faults
@@ -114,7 +114,7 @@ class Twin:
         if self.faults.at(since, "camera_gone"):
             return
         if not (self._shown and self.faults.at(since, "camera_frozen")):
-            self._shown = self._jpeg(self._picture(since))
+            self._shown = encoded(self._picture(since)[..., ::-1].copy(), self.quality)
         self.stream.publish(self._shown)
 
     def _have_demonstrated(self, now: float, resting: bool) -> None:
@@ -149,9 +149,3 @@ class Twin:
             if self.faults.at(since, name):
                 picture = spoil(picture)
         return picture
-
-    def _jpeg(self, picture: Image) -> bytes:
-        # A camera on the network has its own encoder: finer than what is recorded of it.
-        bgr = cv2.cvtColor(picture, cv2.COLOR_RGB2BGR)
-        _, jpeg = cv2.imencode(".jpg", bgr, [cv2.IMWRITE_JPEG_QUALITY, self.quality])
-        return jpeg.tobytes()
