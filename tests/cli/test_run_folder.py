@@ -123,8 +123,8 @@ def test_an_arm_that_stopped_at_its_target_is_told_to_hold_by_a_key(stops, told)
     assert held.endswith(told)
 
 
-@pytest.mark.parametrize("name", ["a b", "x=1,2", "it's"])
-def test_a_folder_may_have_any_name(imitate, name):
+def test_a_folder_may_have_any_name(imitate):
+    name = "it's x=1,2 b"
     assert imitate("learn-map", "robot=ideal", f"out={name}").exit_code == 0
     assert (imitate.folder / name / "map.npz").is_file()
     assert imitate("reach", "robot=ideal", f"map={name}").exit_code == 0
