@@ -11,6 +11,7 @@ from pathlib import Path
 
 import numpy as np
 from rich.console import Console
+from rich.text import Text
 
 import imitation
 from cli import trouble
@@ -116,7 +117,7 @@ def _disk() -> str:
 
 def _show(findings: Sequence[Finding]) -> None:
     rows = [
-        (f"[{COLOURS[one.verdict]}]{one.verdict}[/]", one.subject, one.told) for one in findings
+        (Text(one.verdict, style=COLOURS[one.verdict]), one.subject, one.told) for one in findings
     ]
     table = listing("imitate doctor", ("", "looked at", "found"), rows)
     Console(highlight=False).print(table)

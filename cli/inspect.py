@@ -12,7 +12,7 @@ from rich.table import Table
 
 from cli.errors import DONE
 from cli.following import reach_with, replay_of
-from cli.printed import facts, on_stdout
+from cli.printed import as_it_stands, facts, on_stdout
 from cli.settings import settings
 from imitation.analysis.seal import broken, cited
 from imitation.recording.mcap_recording import Recording
@@ -108,7 +108,8 @@ def show(told: Mapping[str, Any], found: Survey) -> None:
         rate = "" if topic.rate is None else f"{topic.rate:.4g}"
         kind = topic.type.rpartition("/")[2]
         gap = f"{topic.gap_ns / SECOND:.3g}"
-        table.add_row(name, kind, str(topic.messages), rate, gap, size(topic.bytes))
+        cells = (name, kind, str(topic.messages), rate, gap, size(topic.bytes))
+        table.add_row(*as_it_stands(cells))
     console.print(table)
     for number, command in enumerate(told["next"]):
         console.print(f"{'' if number else 'next':6} {command}", markup=False)

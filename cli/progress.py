@@ -31,7 +31,7 @@ class ProgressReport:
         self._bar: Progress | None = None
         self._pause = PAUSE
         if sys.stderr.isatty():
-            columns = (SpinnerColumn(), TextColumn("{task.description}"))
+            columns = (SpinnerColumn(), TextColumn("{task.description}", markup=False))
             self._bar = Progress(*columns, console=Console(stderr=True), transient=True)
             self._task = self._bar.add_task(name, total=None)
             self._pause = REFRESH

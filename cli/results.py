@@ -18,6 +18,7 @@ from cli.every_seed import on_every_seed
 from cli.experiments import composed
 from cli.jobs.learn_map import learned_by
 from cli.jobs.reach import reaching, trials_of
+from cli.printed import as_it_stands
 from cli.results_deferred import replay_one, told_of_replays
 from cli.stages import learning
 from imitation.analysis.metrics import learn_map_metrics
@@ -201,7 +202,7 @@ def show(rows: Sequence[dict[str, Any]], title: str) -> None:
     for heading in rows[0]:
         table.add_column(heading, overflow="fold")
     for row in rows:
-        table.add_row(*(_told(value) for value in row.values()))
+        table.add_row(*as_it_stands(_told(value) for value in row.values()))
     Console(width=200).print(table)
 
 

@@ -14,7 +14,7 @@ from rich.table import Table
 from cli.errors import DONE, NOT_TRUE, UserError, say
 from cli.folder import check_writable
 from cli.inspect import results
-from cli.printed import facts, on_stdout
+from cli.printed import as_it_stands, facts, on_stdout
 from cli.provenance import another_program
 from cli.recompute import Anew, anew, configuration
 from cli.what_if import replaced
@@ -169,7 +169,8 @@ def show(title: str, told: Sequence[tuple[str, str]], found: Comparison) -> None
         first, unit = one.first, unit_of(topic, one.first.term)
         most = f"{one.largest:.2g} {unit}".strip() if np.isfinite(one.largest) else ""
         values = (_short(first.recorded), _short(first.recomputed))
-        table.add_row(topic, str(one.steps), f"{first.time_ns / SECOND:.2f} s", *values, most)
+        since = f"{first.time_ns / SECOND:.2f} s"
+        table.add_row(*as_it_stands((topic, str(one.steps), since, *values, most)))
     console.print(table)
 
 

@@ -46,8 +46,8 @@ def outcome(visits: Sequence[Visit], cfg: Config) -> Outcome:
         },
         rows=[
             ("postures seen", f"{len(offs)} of {len(visits)}"),
-            ("all are off by", f"[{common[0]:.1f}, {common[1]:.1f}] px"),
-            ("each from that", f"{rest:.1f} px in the median"),
+            ("all are off by", f"[{common[0]:.1f}, {common[1]:.1f}] px" if len(offs) else "none"),
+            ("each from that", f"{rest:.1f} px in the median" if len(offs) else "none"),
             ("verdict", verdict),
         ],
         next="imitate view {run}",

@@ -58,8 +58,8 @@ def show(title: str, claims: Sequence[Claim], count: int, files: Sequence[Path])
     console.print(listing(title, ("claim", "asked", "measured", "95 % interval", ""), rows))
     paths = [os.path.relpath(path) for path in files]
     if reports := count - len(claims):
-        console.print(f"told   {reports} more values, in {paths[-1]}", soft_wrap=True)
-    console.print("files  " + " ".join(paths), soft_wrap=True)
+        console.print(f"told   {reports} more values, in {paths[-1]}", soft_wrap=True, markup=False)
+    console.print("files  " + " ".join(paths), soft_wrap=True, markup=False)
 
 
 def _row(claim: Claim) -> tuple[str, ...]:

@@ -34,6 +34,12 @@ def test_a_hand_that_cannot_be_seen_is_told(imitate, learned):
     assert told["verdict"] == "hand unseen"
 
 
+def test_where_no_hand_is_seen_the_table_holds_no_number(imitate, learned):
+    result, told = run(imitate, learned, "vision=skin")
+    assert told["seen"] == 0
+    assert "nan" not in result.stdout and " px" not in result.stdout
+
+
 @pytest.mark.parametrize(
     ("moved", "scatter", "unseen", "verdict"),
     [
