@@ -2,6 +2,7 @@
 
 import zlib
 from collections.abc import Iterator, Mapping
+from contextlib import ExitStack
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
@@ -94,9 +95,13 @@ class Bench:
         if "arm" in asked_by(node):  # a real camera stands for itself
             offered["arm"] = self.arm
         camera: Camera = make_offered(node, offered)
-        if (neck := self.cfg.get("neck")) and not self.cfg["dry_run"]:
-            camera = make(neck, camera=camera, gaze=self.cfg["camera"]["gaze"])
-        spoilt: Camera = self._spoilt("camera", camera, simulated="demonstrator" in asked_by(node))
+        with ExitStack() as opened:  # a camera that is left open ends the program its own way
+            opened.callback(lambda: camera.close())
+            if (neck := self.cfg.get("neck")) and not self.cfg["dry_run"]:
+                camera = make(neck, camera=camera, gaze=self.cfg["camera"]["gaze"])
+            simulated = "demonstrator" in asked_by(node)
+            spoilt: Camera = self._spoilt("camera", camera, simulated)
+            opened.pop_all()
         return spoilt
 
     def _spoilt(self, name: str, part: Any, simulated: bool) -> Any:

@@ -49,6 +49,7 @@ class VisualStates:
         self._rested: list[Array] = []  # places of the newest state's rest, (2,) [px]
         self._area: Area | None = None  # the one that wins
         self._since = 0.0  # when it began to [s]
+        self._missed = False  # the newest frame showed no hand
 
     def see(self, time: float, visual_input: Array, hand: Array | None) -> VisualState | None:
         """Take notice of a new frame; returns the state that the hand is found in, if it is new.
@@ -59,10 +60,12 @@ class VisualStates:
             hand: Where the hand is seen, (2,) [px]; None: it is not.
         """
         if hand is None or not visual_input.any():
+            self._missed = True
             return None
-        if self._seen and time - self._seen[-1][0] > self.resting.lost:
+        if self._missed and self._seen and time - self._seen[-1][0] > self.resting.lost:
             self._seen.clear()
             self._area = None
+        self._missed = False
         winner = self._winner(visual_input, hand)
         if winner != self._area:
             self._area, self._since = winner, time

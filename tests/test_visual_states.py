@@ -105,6 +105,13 @@ def test_a_hand_lost_for_a_moment_goes_on_resting_and_one_that_left_does_not():
     assert watched(rest(BY, 0.3), unseen(1.0), rest(BY, 0.3)) == []
 
 
+def test_a_hand_looked_at_seldom_has_not_left_meanwhile():
+    states = VisualStates(RESTING, FIELD)
+    for look in range(6):
+        states.see(0.36 * look, FIELD.activity(DISC + BY), np.array(BY))
+    assert [(state.area, state.time) for state in states.states] == [((1, 3), 0.0)]
+
+
 def test_a_state_is_told_as_soon_as_the_hand_has_rested_long_enough():
     states = VisualStates(RESTING, FIELD)
     told = [

@@ -2,6 +2,7 @@
 
 import time
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import ExitStack, closing
 from dataclasses import dataclass
 
 import numpy as np
@@ -190,14 +191,11 @@ def ssc32_neck(
     watch: float,
 ) -> CameraOnNeck:
     """`camera` on a neck at a serial port, looking along its own `gaze` [rad]."""
-    line = SerialLine(port, baud, timeout)
-    try:
+    with ExitStack() as opened:
+        line = opened.enter_context(closing(SerialLine(port, baud, timeout)))
         servos = [_servo(**one) for one in (pan, tilt)]
         neck = Ssc32Neck(line, servos, np.asarray(gaze, dtype=float), speed, timeout, watch)
-    except DeviceError:
-        line.close()
-        camera.close()
-        raise
+        opened.pop_all()
     return CameraOnNeck(camera, neck)
 
 

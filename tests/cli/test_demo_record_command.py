@@ -62,6 +62,12 @@ def test_what_it_says_to_type_next_can_be_typed(imitate):
     assert "next   imitate replay map=data/runs/map action=data/runs/demo-record/" in again
 
 
+def test_an_arm_with_long_control_periods_learns_the_same_states(imitate):
+    assert imitate("demo-record", "robot=ideal", "period=0.36", "out=slow").exit_code == 0
+    told = json.loads((imitate.folder / "slow" / "action.json").read_text())
+    assert len(told["states"]) == 4
+
+
 def test_without_a_demonstration_the_exit_code_is_1_and_there_is_no_action(imitate):
     result = imitate(
         "demo-record", "robot=ideal", "demonstrator=none", "demo.duration=1", "out=run"

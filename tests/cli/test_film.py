@@ -1,6 +1,7 @@
 """A film from the command line to the recording."""
 
 import json
+import threading
 from pathlib import Path
 
 import numpy as np
@@ -25,6 +26,16 @@ def watched(imitate, name: str, path: Path, *words: str) -> Path:
 @pytest.fixture
 def run(imitate):
     return watched(imitate, "run", film(imitate.folder / "film.mp4", frames=60, rate=60))
+
+
+@pytest.mark.parametrize(
+    ("words", "code"), [(("neck=ssc32", "neck.port=nowhere"), 3), (("fault=camera_black",), 2)]
+)
+def test_a_camera_is_closed_when_what_belongs_to_it_cannot_be_had(imitate, words, code):
+    shown = film(imitate.folder / "film.mp4", frames=60, rate=60)
+    live = ("robot=ideal", "camera=webcam", f"camera.device={shown}")
+    assert imitate("demo-record", *live, *words).exit_code == code
+    assert "camera" not in [thread.name for thread in threading.enumerate()]
 
 
 def metrics(run: Path) -> dict:
