@@ -1,6 +1,7 @@
 """imitate emulate: a device on this computer that speaks its wire protocol."""
 
 from collections.abc import Sequence
+from contextlib import closing
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -33,12 +34,13 @@ def emulate(device: str, asked: Asked) -> int:
     server = Server(_device(device, asked))
     if (asked.port is None) == (asked.pty is None):
         raise UserError("give either --port NUMBER (TCP on 127.0.0.1) or --pty PATH (serial)")
-    if asked.port is not None:
-        server.listen(asked.port)
-    elif asked.pty is not None:
-        server.open_pty(asked.pty)
-    print(f"{device} at {server.where}; Ctrl-C ends it", flush=True)
-    server.serve()
+    with closing(server):
+        if asked.port is not None:
+            server.listen(asked.port)
+        elif asked.pty is not None:
+            server.open_pty(asked.pty)
+        print(f"{device} at {server.where}; Ctrl-C ends it", flush=True)
+        server.serve()
     return DONE
 
 

@@ -1,7 +1,8 @@
 """imitate twin: a real robot on this computer, to be used as if it stood in the lab."""
 
 import threading
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import ExitStack, closing, contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -61,23 +62,14 @@ def twin(asked: Asked) -> int:
     bench = Bench({**cfg, "neck": None})  # the simulated camera needs none
     servos = [Servo(**cfg["neck"][axis]) for axis in ("pan", "tilt")]
     board = ssc32_emulator.Ssc32Emulator(_of_neck(planned))
-    emulator, arm = _arm(robot, asked, Faults(planned))
-    neck = Server(board)
-    neck.open_pty(asked.pty)
-    stream = MjpegServer(asked.stream_port)
+    emulator = _emulator(robot, asked, Faults(planned))
+    arm, neck = Server(emulator), Server(board)
     typed = TYPED[asked.model] if robot == KATANA else robot
-    _tell(f"robot={typed} robot.arm.address={arm.where}", stream.url, neck.where)
-    threads = [threading.Thread(target=one.serve, daemon=True) for one in (arm, neck)]
-    for thread in threads:
-        thread.start()
-    try:
-        _twin(bench, emulator, board, servos, stream, Faults(planned)).run(over=lambda: False)
-    finally:
-        for server, thread in zip((arm, neck), threads, strict=True):
-            server.stopped = True
-            thread.join(timeout=1.0)
-        stream.close()
-        bench.robot.close()
+    with _opened(arm, neck, asked, over_tcp=_over_tcp(robot, asked)) as stream:
+        world = _twin(bench, emulator, board, servos, stream, Faults(planned))
+        with closing(bench.robot), _served(arm, neck):
+            _tell(f"robot={typed} robot.arm.address={arm.where}", stream.url, neck.where)
+            world.run(over=lambda: False)
     return DONE
 
 
@@ -90,18 +82,50 @@ def _whose(words: Sequence[str]) -> tuple[str, list[str]]:
     return robot, [f"robot={robot}_sim", *(word for word in words if word not in named)]
 
 
-def _arm(robot: str, asked: Asked, faults: Faults) -> tuple[Emulated, Server]:
-    """The emulated arm, and where it is served."""
-    emulator: KatanaEmulator | ServoBusEmulator = ServoBusEmulator(faults=faults)
-    over_tcp = robot == KATANA and not MODELS[asked.model].serial
+def _over_tcp(robot: str, asked: Asked) -> bool:
+    return robot == KATANA and not MODELS[asked.model].serial
+
+
+def _emulator(robot: str, asked: Asked, faults: Faults) -> KatanaEmulator | ServoBusEmulator:
     if robot == KATANA:
-        emulator = KatanaEmulator(EmulatedArm(MODELS[asked.model]), faults)
-    server = Server(emulator)
-    if over_tcp:
-        server.listen(asked.port)
-    else:
-        server.open_pty(asked.arm_pty)
-    return emulator, server
+        return KatanaEmulator(EmulatedArm(MODELS[asked.model]), faults)
+    return ServoBusEmulator(faults=faults)
+
+
+def _place(path: Path) -> Path:
+    return path.parent.resolve() / path.name
+
+
+@contextmanager
+def _opened(arm: Server, neck: Server, asked: Asked, over_tcp: bool) -> Iterator[MjpegServer]:
+    """The camera's stream, once all ports are open; they are closed in the end."""
+    if not over_tcp and _place(asked.arm_pty) == _place(asked.pty):
+        raise UserError(f"arm and neck are both at {asked.pty}; give --pty another path")
+    with ExitStack() as opened:
+        stream = opened.enter_context(closing(MjpegServer(asked.stream_port)))
+        for server in (arm, neck):
+            opened.callback(server.close)
+        # What may be taken comes first: a twin that is refused leaves no link behind.
+        if over_tcp:
+            arm.listen(asked.port)
+        else:
+            arm.open_pty(asked.arm_pty)
+        neck.open_pty(asked.pty)
+        yield stream
+
+
+@contextmanager
+def _served(*servers: Server) -> Iterator[None]:
+    """Meanwhile the servers serve."""
+    threads = [threading.Thread(target=one.serve, daemon=True) for one in servers]
+    for thread in threads:
+        thread.start()
+    try:
+        yield
+    finally:
+        for server, thread in zip(servers, threads, strict=True):
+            server.stopped = True
+            thread.join(timeout=1.0)
 
 
 def _config(command: str, words: Sequence[str]) -> Config:

@@ -6,6 +6,7 @@ import socket
 import time
 import tty
 from collections.abc import Callable, Iterable
+from contextlib import ExitStack
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Protocol
@@ -23,6 +24,7 @@ LINE_FAULTS = {
 SPLIT = 0.02  # between the two pieces [s]
 LATE = 0.4  # more than a client waits [s]
 LOOK = 0.02  # how often the device goes on while nobody speaks [s]
+PTYS = Path("/dev/pts")
 
 
 class Device(Protocol):
@@ -49,7 +51,7 @@ class Server:
     where: str = ""  # what a client types to get here
     stopped: bool = False
     _selector: selectors.DefaultSelector = field(default_factory=selectors.DefaultSelector)
-    _clean_up: list[Callable[[], None]] = field(default_factory=list)
+    _opened: ExitStack = field(default_factory=ExitStack)
 
     def listen(self, port: int) -> None:
         """Take clients on 127.0.0.1; port 0 chooses a free one."""
@@ -59,25 +61,25 @@ class Server:
             raise ValueError(f"port {port} on 127.0.0.1 cannot be used: {error}") from error
         self.where = f"127.0.0.1:{listener.getsockname()[1]}"
         self._selector.register(listener, selectors.EVENT_READ, self._accept)
-        self._clean_up.append(listener.close)
+        self._opened.callback(listener.close)
 
     def open_pty(self, path: Path) -> None:
         """Be a serial port that is found at `path`."""
-        if path.is_symlink():
-            path.unlink()  # left over by an emulator that was killed
-        if path.exists():
+        if _left_over(path):
+            path.unlink()
+        if path.exists() or path.is_symlink():
             raise ValueError(f"{path} exists already; give --pty a path that is free")
         if not path.parent.is_dir():
             raise ValueError(f"there is no folder {path.parent} for --pty {path}")
         master, slave = os.openpty()
+        # The slave stays open, so that clients may come and go.
+        for end in (master, slave):
+            self._opened.callback(os.close, end)
         tty.setraw(slave)
         path.symlink_to(os.ttyname(slave))
+        self._opened.callback(_unlink, path, os.ttyname(slave))
         self.where = str(path)
         self._selector.register(master, selectors.EVENT_READ, self._read_pty)
-        # The slave stays open, so that clients may come and go.
-        for close in (lambda: path.unlink(missing_ok=True), lambda: os.close(slave)):
-            self._clean_up.append(close)
-        self._clean_up.append(lambda: os.close(master))
 
     def serve(self) -> None:
         """Serve until `stopped`."""
@@ -87,12 +89,15 @@ class Server:
                     key.data(key.fileobj)
                 self.device.pass_time()
         finally:
-            for key in list(self._selector.get_map().values()):
-                if isinstance(key.fileobj, socket.socket):
-                    key.fileobj.close()
-            self._selector.close()
-            for clean_up in self._clean_up:
-                clean_up()
+            self.close()
+
+    def close(self) -> None:
+        """Release the port and whoever uses it; harmless when repeated."""
+        for key in list((self._selector.get_map() or {}).values()):
+            if isinstance(key.fileobj, socket.socket):
+                key.fileobj.close()
+        self._selector.close()
+        self._opened.close()
 
     def _accept(self, listener: socket.socket) -> None:
         client, _ = listener.accept()
@@ -115,9 +120,7 @@ class Server:
             self._answer(os.read(master, 4096), lambda reply: os.write(master, reply))
         except CutError:
             self._selector.unregister(master)
-            for clean_up in self._clean_up:
-                clean_up()
-            self._clean_up.clear()
+            self._opened.close()
 
     def _answer(self, data: bytes, write: Callable[[bytes], object]) -> None:
         for reply in self.device.heard(data):
@@ -135,3 +138,14 @@ class Server:
                 time.sleep(SPLIT)
                 reply = reply[len(reply) // 2 :]
             write(reply)
+
+
+def _left_over(path: Path) -> bool:
+    """Whether it is the link of an emulator that was killed."""
+    return path.is_symlink() and path.readlink().parent == PTYS and not path.exists()
+
+
+def _unlink(path: Path, target: str) -> None:
+    """Remove a link, unless another has taken its place."""
+    if path.is_symlink() and path.readlink() == Path(target):
+        path.unlink()

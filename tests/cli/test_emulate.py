@@ -82,3 +82,32 @@ def test_what_cannot_be_emulated_is_told_in_one_line(imitate, words, told):
     assert result.exit_code == 2
     assert told in result.stderr
     assert result.stderr.count("\n") == 1
+
+
+@pytest.fixture
+def taken():
+    """A TCP port that somebody uses."""
+    with socket.create_server(("127.0.0.1", 0)) as listener:
+        yield str(listener.getsockname()[1])
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        (["--stream", "TAKEN"], "cannot be used"),
+        (["--stream", "0", "--port", "TAKEN"], "cannot be used"),
+        (["robot=so101", "--stream", "TAKEN"], "cannot be used"),
+        (["robot=so101", "--stream", "0", "--pty", "used"], "used exists already"),
+        (["robot=so101", "--stream", "0", "--pty", "arm"], "arm and neck are both at arm"),
+    ],
+)
+def test_a_twin_that_is_refused_leaves_nothing_behind(
+    imitate, taken, tmp_path, monkeypatch, words, told
+):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "used").touch()
+    result = imitate("twin", *(taken if word == "TAKEN" else word for word in words))
+    assert result.exit_code == 2
+    assert told in result.stderr
+    assert result.stderr.count("\n") == 1
+    assert [one.name for one in tmp_path.iterdir()] == ["used"]
