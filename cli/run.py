@@ -161,6 +161,7 @@ class Run:
             "late_ticks": self.late_ticks,
             "achieved_rate_hz": self._cadence.rate,
             **self._frames.result(),
+            **({"dry_run": True} if self.cfg["dry_run"] else {}),
             **more,
         }
         write_metrics(self.folder, self.command, content)

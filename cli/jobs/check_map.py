@@ -26,7 +26,20 @@ def check(run: Run) -> Outcome:
     learned = the_map(run).map
     visits, samples = checking(run.bench, learned)
     run.record(samples, learned.field)
+    if run.cfg["dry_run"]:
+        return unmoved()
     return outcome(visits, run.cfg["check"])
+
+
+def unmoved() -> Outcome:
+    """What a dry run tells: its postures were imagined, but what was seen was not."""
+    verdict = "nothing can be told"
+    return Outcome(
+        metrics={"visited": 0, "seen": 0, "off_px": [], "verdict": verdict},
+        rows=[("postures visited", "none, a dry run moves nothing"), ("verdict", verdict)],
+        next="imitate view {run}",
+        complaint="a dry run: the arm was not moved, so nothing can be told of the map",
+    )
 
 
 def outcome(visits: Sequence[Visit], cfg: Config) -> Outcome:

@@ -31,6 +31,8 @@ def learn(run: Run) -> Outcome:
         guide_by_hand(run)
     learner, samples = learning(run.bench)
     run.record(samples, run.bench.field)
+    if run.cfg["dry_run"]:
+        return unmoved(run.bench)
     save_map(run.folder / "map.npz", learned_by(run.bench, learner))
     metrics = learn_map_metrics(learner.learned, learner.shown)
     limit = learner.run.limit if run.robot_time_s >= learner.run.limit else None
@@ -39,6 +41,17 @@ def learn(run: Run) -> Outcome:
         rows=map_card(metrics),
         next=reach_with("{run}", run.typed) if metrics["areas_learned"] else "imitate view {run}",
         complaint=complaint(metrics, limit),
+    )
+
+
+def unmoved(bench: Bench) -> Outcome:
+    """What a dry run brings: no map, as no posture it imagined was that of the hand it saw."""
+    metrics = learn_map_metrics(bench.empty_map(), {})
+    return Outcome(
+        metrics=metrics,
+        rows=map_card(metrics),
+        next="imitate view {run}",
+        complaint="a dry run: the arm was not moved, so nothing is learned and no map.npz saved",
     )
 
 
