@@ -16,6 +16,7 @@ from imitation.robots.katana.models import MODELS
 from imitation.robots.serving import Device, Server
 
 DEVICES = {"katana": FAULTS, "ssc32": ssc32.FAULTS, "servo-bus": servo_bus.FAULTS}
+FASTEST = 1000.0  # times the real device: more than anybody needs, and far from an overflow
 
 
 @dataclass(frozen=True)
@@ -47,8 +48,8 @@ def emulate(device: str, asked: Asked) -> int:
 def _device(name: str, asked: Asked) -> Device:
     if name not in DEVICES:
         raise UserError(no_such("device", name, list(DEVICES)))
-    if not asked.speed > 0:
-        raise UserError(f"--speed is a factor above 0, not {asked.speed:g}")
+    if not 0 < asked.speed <= FASTEST:
+        raise UserError(f"--speed is a factor above 0, at most {FASTEST:g}, not {asked.speed:g}")
     models = MAKES if name == "servo-bus" else MODELS
     model = asked.model or ("sts3215" if name == "servo-bus" else "400")
     if model not in models:

@@ -5,8 +5,16 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 WRITTEN = re.compile(
-    r"(?P<name>\w+)(=(?P<which>\d+))?(@(?P<start>\d+(\.\d+)?)(-(?P<end>\d+(\.\d+)?))?)?(x(?P<times>\d+))?"
+    r"(?P<name>\w+?)(=(?P<which>\d+))?(@(?P<start>\d+(\.\d+)?)(-(?P<end>\d+(\.\d+)?))?)?(x(?P<times>\d+))?"
 )
+
+
+@dataclass(frozen=True)
+class Kind:
+    """A way in which devices fail."""
+
+    does: str
+    parts: int = 0  # WHICH counts so many motors or servos from 1; 0: it is the device's as a whole
 
 
 @dataclass(frozen=True)
@@ -24,7 +32,7 @@ class Fault:
         return self.start <= time < self.end
 
 
-def read_fault(written: str, known: Mapping[str, str]) -> Fault:
+def read_fault(written: str, known: Mapping[str, Kind]) -> Fault:
     """A fault as it is typed: NAME[=WHICH][@START[-END]][xTIMES], such as late@1-2.5x3."""
     match = WRITTEN.fullmatch(written)
     if not match or match["name"] not in known:
@@ -33,8 +41,23 @@ def read_fault(written: str, known: Mapping[str, str]) -> Fault:
             f"with a NAME of {', '.join(known)}"
         )
     start, end = float(match["start"] or 0), float(match["end"] or "inf")
+    if end <= start:
+        raise ValueError(f"fault {written} ends before it begins; type {match['name']}@START-END")
     times = float(match["times"] or "inf")
-    return Fault(match["name"], int(match["which"] or 0), start, end, times)
+    return Fault(match["name"], _which(match, known[match["name"]].parts), start, end, times)
+
+
+def _which(match: re.Match[str], parts: int) -> int:
+    name, typed = match["name"], match["which"]
+    if typed is None:
+        return 0
+    if not parts:
+        raise ValueError(
+            f"fault {match[0]}: {name} is of the whole device; type it without a WHICH"
+        )
+    if not 1 <= float(typed) <= parts:
+        raise ValueError(f"fault {match[0]}: there is no {typed}; type {name}=1 to {name}={parts}")
+    return int(typed)
 
 
 def nothing(name: str) -> None:

@@ -11,15 +11,15 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Protocol
 
-from imitation.robots.faults import Faults
+from imitation.robots.faults import Faults, Kind
 
 # Faults of any line, and what each of them does.
 LINE_FAULTS = {
-    "silence": "no reply comes",
-    "wrong_crc": "the last byte of each reply is wrong",
-    "split": "each reply comes in two pieces",
-    "late": "each reply comes late",
-    "cut": "the connection is cut",
+    "silence": Kind("no reply comes"),
+    "wrong_crc": Kind("the last byte of each reply is wrong"),
+    "split": Kind("each reply comes in two pieces"),
+    "late": Kind("each reply comes late"),
+    "cut": Kind("the connection is cut"),
 }
 SPLIT = 0.02  # between the two pieces [s]
 LATE = 0.4  # more than a client waits [s]

@@ -20,7 +20,7 @@ from imitation.robots.emulated_servos import (
     EmulatedServo,
     Make,
 )
-from imitation.robots.faults import Faults
+from imitation.robots.faults import Faults, Kind
 from imitation.robots.serving import LINE_FAULTS
 from imitation.robots.servo_packets import (
     EVERYONE,
@@ -32,11 +32,12 @@ from imitation.robots.servo_packets import (
     Request,
 )
 
+IDS = (1, 2, 3, 4, 5, 6)
 SERVO_FAULTS = {
-    "stuck_servo": "servo WHICH does not move",
-    "stuck_encoder": "servo WHICH says for ever that it is where it was",
-    "hot_servo": "servo WHICH is over its temperature",
-    "overloaded_servo": "servo WHICH is overloaded",
+    "stuck_servo": Kind("servo WHICH does not move", parts=len(IDS)),
+    "stuck_encoder": Kind("servo WHICH says for ever that it is where it was", parts=len(IDS)),
+    "hot_servo": Kind("servo WHICH is over its temperature", parts=len(IDS)),
+    "overloaded_servo": Kind("servo WHICH is overloaded", parts=len(IDS)),
 }
 FAULTS = LINE_FAULTS | SERVO_FAULTS
 STEP = 2 * np.pi / TURN  # [rad]
@@ -54,7 +55,7 @@ class ServoBusEmulator:
         clock: Seconds that pass.
     """
 
-    ids: Sequence[int] = (1, 2, 3, 4, 5, 6)
+    ids: Sequence[int] = IDS
     make: Make = STS3215
     faults: Faults = field(default_factory=Faults)
     speed: float = 1.0

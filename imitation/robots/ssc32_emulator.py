@@ -5,11 +5,11 @@ import time
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 
-from imitation.robots.faults import Faults
+from imitation.robots.faults import Faults, Kind
 from imitation.robots.serving import LINE_FAULTS
 
 FAULTS = {name: LINE_FAULTS[name] for name in ("silence", "cut", "late")} | {
-    "reset": "at START the board forgets its servos (weak supply)",
+    "reset": Kind("at START the board forgets its servos (weak supply)"),
 }
 CR, ESC = 0x0D, 0x1B
 IGNORED = b" \t\n"

@@ -12,18 +12,18 @@ from imitation.gaze import VisualSpace
 from imitation.jpeg import encoded
 from imitation.robots.bullet.arm import BulletArm
 from imitation.robots.demonstrators import Demonstrator, Shown
-from imitation.robots.faults import Faults
+from imitation.robots.faults import Faults, Kind
 from imitation.robots.mjpeg import MjpegServer
 from imitation.robots.spoilt_pictures import SPOILT
 from imitation.robots.ssc32 import Servo
 from imitation.robots.ssc32_emulator import Ssc32Emulator
 
 CAMERA_FAULTS = {
-    "camera_frozen": "the camera shows the same picture again and again",
-    "camera_black": "its pictures are black",
-    "camera_gone": "it delivers nothing",
-    "tag_lost": "there is no tag on the hand",
-    "two_tags": "a second thing looks like the tag",
+    "camera_frozen": Kind("the camera shows the same picture again and again"),
+    "camera_black": Kind("its pictures are black"),
+    "camera_gone": Kind("it delivers nothing"),
+    "tag_lost": Kind("there is no tag on the hand"),
+    "two_tags": Kind("a second thing looks like the tag"),
 }
 # Of its pixels [0..255]: no two pictures of a real camera are equal, though nothing moves.
 GRAIN = 2

@@ -8,7 +8,7 @@ from threading import Lock
 import numpy as np
 
 from imitation.arrays import Array
-from imitation.robots.faults import Fault, Faults
+from imitation.robots.faults import Fault, Faults, Kind
 from imitation.robots.katana.answers import Answers
 from imitation.robots.katana.commands import motor_version
 from imitation.robots.katana.emulated_arm import EmulatedArm, RefusalError
@@ -20,15 +20,18 @@ from imitation.robots.katana.frames import (
     ERROR_TEXT,
     sealed,
 )
+from imitation.robots.katana.models import MOTORS
 from imitation.robots.serving import LINE_FAULTS
 
 FAULTS = LINE_FAULTS | {
-    "error_flag": "each request is refused (400 and 450)",
-    "crashed_motor": "motor WHICH (1) collides: status 40, it moves no more until unblocked",
-    "stuck_motor": "motor WHICH (1) does not move and does not say so",
-    "stuck_encoder": "the encoder of motor WHICH (1) says the same for ever",
-    "stuck_sensor": "the gripper's sensors say the same for ever",
-    "uncalibrated": "the arm was just switched on",
+    "error_flag": Kind("each request is refused (400 and 450)"),
+    "crashed_motor": Kind(
+        "motor WHICH (1) collides: status 40, it moves no more until unblocked", parts=MOTORS
+    ),
+    "stuck_motor": Kind("motor WHICH (1) does not move and does not say so", parts=MOTORS),
+    "stuck_encoder": Kind("the encoder of motor WHICH (1) says the same for ever", parts=MOTORS),
+    "stuck_sensor": Kind("the gripper's sensors say the same for ever"),
+    "uncalibrated": Kind("the arm was just switched on"),
 }
 FIRST = motor_version(1)  # what every driver asks first
 STALE = 0.5  # a frame that is not complete by then never will be [s]
