@@ -4,6 +4,8 @@ import numpy as np
 import pytest
 from on_bench import bench
 
+from imitation.robots.bullet.world import pybullet
+
 PRESSING = np.array([0.0, -0.5, 0.0, 0.0, 0.0])  # the shoulder's lift, down onto the table [rad/s]
 
 
@@ -39,3 +41,14 @@ def test_while_one_joint_moves_the_others_do_not_sag(body):
     arm.close()
     assert (np.abs(away[:-1]) < 0.02).all()
     assert 0.19 <= away[-1] <= 0.21
+
+
+def test_a_jaw_that_nothing_drives_stays_closed():
+    arm = bench("learn-map", "robot=so101_sim").robot.arm
+    arm.reset(np.array([0.0, -0.5, 0.5, 0.5, 0.0]))
+    for step in range(150):
+        shaken = 1.2 * np.sign(np.sin(step / 3 + np.arange(5)))
+        arm.move(shaken, None, 0.04)
+    jaw, *_ = pybullet.getJointState(arm.world._arm, 5, physicsClientId=arm.world._client)
+    arm.close()
+    assert jaw == pytest.approx(0.0, abs=0.01)

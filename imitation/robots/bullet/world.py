@@ -102,6 +102,8 @@ class World:
         self._gripper = self._add_gripper(by_name)
         if self._gripper:
             self._gripper.place(opening)
+        driven = {*self.joints, *(self.fingers.joints if self.fingers else ())}
+        self._hold([row for row in info if row[1].decode() not in driven])
         self._mark = self._sphere(self.mark.radius, self.mark.colour)
         self._covered = False
         self.carry_mark()
@@ -238,6 +240,19 @@ class World:
         if self.can:
             gripper.prepare()
         return gripper
+
+    def _hold(self, others: Sequence[Sequence[Any]]) -> None:
+        """Keep joints that nothing drives, such as a single jaw, where they are."""
+        for row in others:
+            if row[2] != pybullet.JOINT_FIXED:
+                pybullet.setJointMotorControl2(
+                    self._arm,
+                    row[0],
+                    pybullet.POSITION_CONTROL,
+                    targetPosition=0.0,
+                    force=row[10],
+                    physicsClientId=self._client,
+                )
 
     def _sphere(self, radius: float, colour: Sequence[float]) -> int:
         """A new sphere that is only seen, never touched."""
