@@ -149,3 +149,9 @@ def test_nobody_at_the_other_end_is_told_with_the_address():
 def test_a_serial_port_that_is_not_there_is_told_with_its_name(tmp_path):
     with pytest.raises(DeviceError, match=r"serial port .*nowhere cannot be opened"):
         connect(MODELS["300"], str(tmp_path / "nowhere"), 0.1, 4)
+
+
+@pytest.mark.parametrize("address", ["", ":5566", "arm:", "arm:0", "arm:99999", "arm:80x", "a:1:2"])
+def test_what_is_no_address_is_refused_before_anybody_is_looked_for(address):
+    with pytest.raises(ValueError, match=f"robot.arm.address={address} is no HOST or HOST:PORT"):
+        connect(MODELS["400"], address, 0.1, 4)

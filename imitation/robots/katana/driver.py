@@ -1,5 +1,6 @@
 """Drives a Katana: what it can be asked and told, checked (facts/katana.md, 2.3, 2.4)."""
 
+import re
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -16,25 +17,34 @@ from imitation.robots.line import Line, TcpLine
 from imitation.robots.serial_line import SerialLine
 
 Sleep = Callable[[float], None]
+HIGHEST = 65535  # TCP port
 LOOK = 0.05  # between two looks at a movement [s]
 
 
 def connect(model: Model, address: str, timeout: float, tries: int) -> Connection:
     """A connection to the arm at `address`: HOST[:PORT], or the serial port of a 300."""
-    host, _, port = address.partition(":")
-    if port and not model.serial and not port.isdigit():
-        raise ValueError(f"robot.arm.address={address} is no HOST or HOST:PORT")
     line: Line
     try:
         if model.serial:
             line = SerialLine(address, BAUD, timeout)
         else:
-            line = TcpLine(host, int(port or PORT), timeout)
+            line = TcpLine(*host_and_port(address), timeout)
     except DeviceError as error:
         raise DeviceError(
             f"no Katana: {error}; switch it on, check its cable, or type robot.arm.address=..."
         ) from error
     return Connection(line, model.tells_errors, timeout, tries)
+
+
+def host_and_port(address: str) -> tuple[str, int]:
+    """Of an arm over TCP; the port is the Katana's own when none is given."""
+    match = re.fullmatch(r"([^:\s]+)(?::([0-9]{1,5}))?", address)
+    port = int(match[2] or PORT) if match else 0
+    if match is None or not 0 < port <= HIGHEST:
+        raise ValueError(
+            f"robot.arm.address={address} is no HOST or HOST:PORT, with a PORT of 1 to {HIGHEST}"
+        )
+    return match[1], port
 
 
 @dataclass(frozen=True)
