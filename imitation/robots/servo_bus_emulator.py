@@ -106,6 +106,8 @@ class ServoBusEmulator:
         width = self.make.packets.width
         address, rest = _number(asked.rest[:width]), asked.rest[width:]
         count, each = _number(rest[:width]), rest[width:]
+        if asked.code in (READ, SYNC_READ) and count > self.make.packets.room:
+            return
         model, _ = self.make.cells[MODEL]
         # Every driver asks first for the model.
         self.sessions += asked.code in (READ, SYNC_READ) and address == model

@@ -24,6 +24,8 @@ class Packets(ABC):
 
     header: bytes
     width: int  # bytes of an address, and of a count
+    shortest: int  # request: its instruction, and nothing else [bytes]
+    room: int  # for registers in a reply [bytes]
 
     def requests(self, waiting: bytes) -> tuple[list[Request], bytes]:
         """The requests that are complete in what has come, and what is left of it."""
@@ -37,7 +39,8 @@ class Packets(ABC):
                 break
             else:
                 packet, waiting = waiting[:end], waiting[end:]
-                found += [self.request(packet)] if self.sound(packet) else []
+                sound = len(packet) >= self.shortest and self.sound(packet)
+                found += [self.request(packet)] if sound else []
         return found, waiting
 
     @abstractmethod
@@ -60,7 +63,7 @@ class Packets(ABC):
 class FeetechPackets(Packets):
     """FF FF ID LENGTH CODE ... CHECKSUM."""
 
-    header, width = b"\xff\xff", 1
+    header, width, shortest, room = b"\xff\xff", 1, 6, 253
 
     def end(self, packet: bytes) -> int:
         """Four bytes come before what its length counts."""
@@ -83,7 +86,7 @@ class FeetechPackets(Packets):
 class DynamixelPackets(Packets):
     """FF FF FD 00 ID LENGTH LENGTH CODE ... CRC CRC."""
 
-    header, width = b"\xff\xff\xfd\x00", 2
+    header, width, shortest, room = b"\xff\xff\xfd\x00", 2, 10, LONGEST
 
     def end(self, packet: bytes) -> int:
         """Seven bytes come before what its length counts."""

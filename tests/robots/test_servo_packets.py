@@ -2,6 +2,7 @@
 
 import pytest
 
+from imitation.robots.servo_bus_emulator import ServoBusEmulator
 from imitation.robots.servo_packets import (
     DynamixelPackets,
     FeetechPackets,
@@ -52,3 +53,23 @@ def test_bytes_stuffed_into_a_packet_are_taken_out_and_put_in():
 def test_trouble_is_told_in_every_reply():
     assert DynamixelPackets().status(1, 32, 7, b"")[8] == 0x87
     assert FeetechPackets().status(1, 32, 7, b"")[4] == 32
+
+
+@pytest.mark.parametrize(
+    "asked",
+    [
+        "ff ff 06 09 82 01 ff 00 38 27 01 04 0a",  # more registers than a reply has room for
+        "ff ff 01 04 02 00 ff f9",
+        "ff ff ff 00",  # no instruction, but a right checksum
+    ],
+)
+def test_what_no_servo_could_answer_is_met_with_silence(asked):
+    servos = ServoBusEmulator()
+    assert not list(servos.heard(bytes.fromhex(asked)))
+    ping = bytes.fromhex("ffff010201fb")
+    assert list(servos.heard(ping)) == [bytes.fromhex("ffff010200fc")]
+
+
+def test_a_packet_without_an_instruction_is_no_request():
+    empty = bytes.fromhex("fffffd00010200")
+    assert DynamixelPackets().requests(empty + crc(empty).to_bytes(2, "little")) == ([], b"")
