@@ -161,6 +161,17 @@ def test_a_hand_before_the_twin_is_mimicked_and_its_action_learned_and_replayed(
 
 @pytest.mark.slow
 @pytest.mark.timeout(600)
+def test_an_arm_with_long_control_periods_watches_as_well(tmp_path):
+    words = ("--watching", "demo-record", "demonstrator=pick_and_place")
+    with twin(tmp_path, *TWINS["300"], *words) as there:
+        run = imitate(tmp_path, "demo-record", *there, *STEADY, "out=action")
+    assert run.returncode == 0, run.stderr
+    told = json.loads((tmp_path / "action" / "action.json").read_text())["states"]
+    assert [one["area"] for one in told] == [[2, 0], [2, 2], [1, 3], [2, 4]]
+
+
+@pytest.mark.slow
+@pytest.mark.timeout(600)
 @pytest.mark.parametrize(
     ("fault", "told"),
     [
