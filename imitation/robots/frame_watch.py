@@ -52,8 +52,8 @@ class FrameWatch:
         source = self._open()
         if not source.isOpened():
             raise DeviceError(
-                f"camera.device={device} cannot be opened; {_others()}type camera.device=DEVICE or "
-                "camera.device=http://HOST/STREAM"
+                f"camera.device={device} cannot be opened; {_others(device)}type "
+                "camera.device=DEVICE or camera.device=http://HOST/STREAM"
             )
         self._thread = threading.Thread(target=self._run, args=(source,), name="camera")
         self._thread.daemon = True
@@ -121,7 +121,9 @@ class FrameWatch:
             self._came.notify_all()
 
 
-def _others() -> str:
-    """The cameras that this machine has."""
+def _others(device: str | int) -> str:
+    """The cameras that this machine has, for whoever asked for one of them."""
+    if "://" in str(device):
+        return ""
     found = ", ".join(sorted(map(str, Path("/dev").glob("video*"))))
     return f"this machine has {found}; " if found else "this machine has no camera at /dev/video*; "
