@@ -50,6 +50,8 @@ def _device(name: str, asked: Asked) -> Device:
         raise UserError(no_such("device", name, list(DEVICES)))
     if not 0 < asked.speed <= FASTEST:
         raise UserError(f"--speed is a factor above 0, at most {FASTEST:g}, not {asked.speed:g}")
+    if name == "ssc32" and asked.model is not None:
+        raise UserError("an ssc32 comes in one model; leave out --model")
     models = MAKES if name == "servo-bus" else MODELS
     model = asked.model or ("sts3215" if name == "servo-bus" else "400")
     if model not in models:

@@ -195,7 +195,9 @@ def twin(
         list[str] | None,
         typer.Argument(metavar="KEY=VALUE", help="Such as robot=so101 demonstrator=square."),
     ] = None,
-    model: Annotated[str, typer.Option(help="Of the Katana: 300, 400 or 450.")] = "400",
+    model: Annotated[
+        str | None, typer.Option(help="Of the Katana: 300, 400 or 450; else 400.")
+    ] = None,
     port: Annotated[int, typer.Option(help="TCP port of the arm; 0: a free one.")] = 5566,
     arm_pty: Annotated[
         Path, typer.Option(help="Serial port of an arm that has one, to make.")

@@ -19,7 +19,7 @@ from imitation.robots.faults import Fault, Faults, read_fault
 from imitation.robots.katana import emulator as katana_emulator
 from imitation.robots.katana.emulated_arm import EmulatedArm
 from imitation.robots.katana.emulator import KatanaEmulator
-from imitation.robots.katana.models import MODELS
+from imitation.robots.katana.models import MODELS, Model
 from imitation.robots.mjpeg import MjpegServer
 from imitation.robots.serving import Server
 from imitation.robots.servo_bus_emulator import ServoBusEmulator
@@ -27,7 +27,7 @@ from imitation.robots.ssc32 import Servo
 from imitation.robots.twin import CAMERA_FAULTS, Emulated, Twin
 
 RATE, QUALITY = 25.0, 100  # of the camera: pictures per second [Hz], quality of its JPEGs
-KATANA = "katana"
+KATANA, USUAL = "katana", "400"  # and its model when none is given
 FAULTS = {KATANA: katana_emulator.FAULTS, "so101": servo_bus_emulator.FAULTS}
 # How a Katana of each model is asked for.
 TYPED = {"300": "katana_300", "400": KATANA, "450": f"{KATANA} robot.arm.model=450"}
@@ -44,7 +44,7 @@ class Asked:
 
     words: Sequence[str]
     watching: str  # the command that watches a demonstrator
-    model: str  # of a Katana
+    model: str | None  # of a Katana
     port: int  # of its arm; one with a serial line has a pty
     arm_pty: Path
     pty: Path
@@ -55,17 +55,17 @@ class Asked:
 def twin(asked: Asked) -> int:
     """Serve the twin until interrupted."""
     robot, words = _whose(asked.words)
-    if asked.model not in MODELS:
-        raise UserError(no_such("model", asked.model, list(MODELS)))
+    katana = _katana(robot, asked.model)
     planned = [read_fault(one, FAULTS[robot] | CAMERA_FAULTS | NECK_FAULTS) for one in asked.faults]
     cfg = _config(asked.watching, words)
     bench = Bench({**cfg, "neck": None})  # the simulated camera needs none
     servos = [Servo(**cfg["neck"][axis]) for axis in ("pan", "tilt")]
     board = ssc32_emulator.Ssc32Emulator(_of_neck(planned))
-    emulator = _emulator(robot, asked, Faults(planned))
+    emulator = _emulator(katana, Faults(planned))
     arm, neck = Server(emulator), Server(board)
-    typed = TYPED[asked.model] if robot == KATANA else robot
-    with _opened(arm, neck, asked, over_tcp=_over_tcp(robot, asked)) as stream:
+    typed = TYPED[katana.name] if katana else robot
+    over_tcp = katana is not None and not katana.serial
+    with _opened(arm, neck, asked, over_tcp) as stream:
         world = _twin(bench, emulator, board, servos, stream, Faults(planned))
         with closing(bench.robot), _served(arm, neck):
             _tell(f"robot={typed} robot.arm.address={arm.where}", stream.url, neck.where)
@@ -82,13 +82,21 @@ def _whose(words: Sequence[str]) -> tuple[str, list[str]]:
     return robot, [f"robot={robot}_sim", *(word for word in words if word not in named)]
 
 
-def _over_tcp(robot: str, asked: Asked) -> bool:
-    return robot == KATANA and not MODELS[asked.model].serial
-
-
-def _emulator(robot: str, asked: Asked, faults: Faults) -> KatanaEmulator | ServoBusEmulator:
+def _katana(robot: str, model: str | None) -> Model | None:
+    """The Katana it is; None: another robot."""
     if robot == KATANA:
-        return KatanaEmulator(EmulatedArm(MODELS[asked.model]), faults)
+        name = USUAL if model is None else model
+        if name not in MODELS:
+            raise UserError(no_such("model", name, list(MODELS)))
+        return MODELS[name]
+    if model is not None:
+        raise UserError(f"--model is of a Katana, not of robot={robot}; leave it out")
+    return None
+
+
+def _emulator(katana: Model | None, faults: Faults) -> KatanaEmulator | ServoBusEmulator:
+    if katana:
+        return KatanaEmulator(EmulatedArm(katana), faults)
     return ServoBusEmulator(faults=faults)
 
 

@@ -81,6 +81,7 @@ def test_dynamixel_servos_answer_as_their_maker_wrote_it_down(tmp_path):
             for speed in ("0", "nan", "inf", "1e300")
         ),
         (["ssc32", "--pty", "no/where"], "no folder no"),
+        (["ssc32", "--pty", "here", "--model", "300"], "one model; leave out --model"),
         (["katana", "--port", "99999"], "cannot be used"),
     ],
 )
@@ -102,6 +103,8 @@ def taken():
     ("words", "told"),
     [
         (["--stream", "TAKEN"], "cannot be used"),
+        (["--model", "500"], "no model 500"),
+        (["robot=so101", "--model", "300"], "--model is of a Katana, not of robot=so101"),
         (["--stream", "0", "--port", "TAKEN"], "cannot be used"),
         (["robot=so101", "--stream", "TAKEN"], "cannot be used"),
         (["robot=so101", "--stream", "0", "--pty", "used"], "used exists already"),
