@@ -17,8 +17,10 @@ def check_config_dir(folder: Path) -> None:
     """Refuse a folder with a file that is not YAML, would run code or become large.
 
     Raises:
-        UserError: It holds one; the message names it.
+        UserError: It holds one, or is no folder; the message names it.
     """
+    if not folder.is_dir():
+        raise UserError(f"--config-dir: {folder} is no folder")
     computed = 0
     for path in sorted(path for pattern in WHERE for path in folder.glob(pattern)):
         try:

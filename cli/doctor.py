@@ -15,12 +15,14 @@ from rich.text import Text
 
 import imitation
 from cli import trouble
+from cli.build import Config
+from cli.config_dir import check_config_dir
 from cli.device_check import device_findings
 from cli.errors import DEVICE, DONE, NOT_TRUE
 from cli.experiments import composed
 from cli.findings import FAIL, Finding, Suspicious, look
 from cli.printed import listing
-from cli.words import understand
+from cli.words import quoted, understand
 from imitation.gaze import VisualSpace
 
 COLOURS = {"pass": "green", "warn": "yellow", "fail": "red"}
@@ -29,16 +31,18 @@ SLOWEST = 20.0  # of the disk [MB/s]
 PACKAGES = ("numpy", "opencv-python-headless", "pybullet", "mcap", "rosbags", "rerun-sdk")
 
 
-def doctor(words: Sequence[str], as_json: bool) -> int:
-    """Look at everything, tell what was found, and return the exit code."""
+def doctor(words: Sequence[str], own: Path | None, as_json: bool) -> int:
+    """Look at everything, tell what was found, and return the exit code.
+
+    Args:
+        words: KEY=VALUE, whose devices to look at.
+        own: Folder with configurations of the user's own.
+        as_json: Whether programs are to read it.
+    """
     findings = list(_installation())
     overrides = understand(list(words)).overrides
     if overrides:
-        try:
-            cfg = composed("learn-map", *overrides)
-        except Exception as error:
-            raise trouble.as_user_error("learn-map", error) from error
-        findings += device_findings(cfg)
+        findings += device_findings(_composed(overrides, own))
     if as_json:
         print(json.dumps([vars(one) for one in findings], indent=2))
     else:
@@ -47,6 +51,17 @@ def doctor(words: Sequence[str], as_json: bool) -> int:
     if not failed:
         return DONE
     return DEVICE if all(one.device for one in failed) else NOT_TRUE
+
+
+def _composed(overrides: Sequence[str], own: Path | None) -> Config:
+    places = []
+    if own:
+        check_config_dir(own)
+        places = [quoted(f"file://{own.resolve()}")]
+    try:
+        return composed("learn-map", *overrides, own=tuple(places))
+    except Exception as error:
+        raise trouble.as_user_error("learn-map", error) from error
 
 
 def _installation() -> Iterator[Finding]:

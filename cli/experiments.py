@@ -41,9 +41,15 @@ class Experiment:
 
 
 @cache
-def composed(command: str, *words: str) -> Config:
-    """A command's configuration with `words` typed after it, checked; the same for all seeds."""
-    name, words = command.replace("-", "_"), (*search_path(), *words)
+def composed(command: str, *words: str, own: tuple[str, ...] = ()) -> Config:
+    """A command's configuration with `words` typed after it, checked; the same for all seeds.
+
+    Args:
+        command: Such as learn-map.
+        words: As they are typed.
+        own: Places with configurations of the user's own, as Hydra writes them.
+    """
+    name, words = command.replace("-", "_"), (*search_path(*own), *words)
     if GlobalHydra.instance().is_initialized():
         return checked(command, compose(name, list(words)))
     with initialize_config_module("conf", version_base="1.3"):

@@ -7,8 +7,10 @@ from pathlib import Path
 
 from imitation.recording.yaml_reading import read_yaml
 
-BODY = ("robot=", "robot.", "neck=", "neck.", "period=")  # words that choose the arm
-SIGHT = ("camera", "vision")  # words that choose what is seen
+OWN = "--config-dir="  # where the user's own arms are found
+BODY = (OWN, "robot=", "robot.", "neck=", "neck.", "period=")  # words that choose the arm
+CAMERA = ("camera",)
+SIGHT = (*CAMERA, "vision")  # words that choose what is seen
 FIRST_MAP = "data/runs/map"
 
 
@@ -17,14 +19,27 @@ def reach_with(run: str, typed: Sequence[str]) -> str:
     return _command("reach", f"map={run}", *_chosen(typed, BODY + SIGHT))
 
 
-def replay_of(run: str, robot: str, typed: Sequence[str]) -> str:
-    """To replay the action of a run, with a map of the same robot: one must be learned at first."""
+def camera_words(typed: Sequence[str]) -> list[str]:
+    """Those of the words `typed` that choose the camera."""
+    return [word for word in typed if word.startswith(CAMERA)]
+
+
+def replay_of(run: str, robot: str, typed: Sequence[str], watching_itself: Sequence[str]) -> str:
+    """To replay the action of a run, with a map of the same robot: one must be learned at first.
+
+    Args:
+        run: Its folder.
+        robot: Its robot's name.
+        typed: What it was told.
+        watching_itself: Words of that for the camera in which the arm sees its own hand.
+    """
     body, sight = _chosen(typed, BODY), _chosen(typed, SIGHT)
     known = newest_map(robot)
     replay = _command("replay", f"map={known or FIRST_MAP}", f"action={run}", *body, *sight)
     if known:
         return replay
-    return f"{_command('learn-map', f'out={FIRST_MAP}', *body)} && {replay}"
+    words = [*body, *map(shlex.quote, watching_itself)]
+    return f"{_command('learn-map', f'out={FIRST_MAP}', *words)} && {replay}"
 
 
 def newest_map(robot: str) -> str | None:

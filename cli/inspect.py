@@ -92,7 +92,7 @@ def following(recording: Recording, metrics: Mapping[str, Any]) -> Iterator[str]
     if told.get("command") == "learn-map" and done:
         yield reach_with(run, [f"robot={robot}"])
     if told.get("command") == "demo-record" and done:
-        yield replay_of(run, robot, [f"robot={robot}"])
+        yield replay_of(run, robot, [f"robot={robot}"], ())
 
 
 def show(told: Mapping[str, Any], found: Survey) -> None:

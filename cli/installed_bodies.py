@@ -33,8 +33,10 @@ def folders() -> list[Path]:
     return [Path(place) for place in places]
 
 
-def search_path() -> tuple[str, ...]:
-    """The word that lets Hydra find their configurations; none when there are none."""
-    if not packages():
-        return ()
-    return (f"hydra.searchpath=[{','.join(f'pkg://{package}' for package in packages())}]",)
+def search_path(*own: str) -> tuple[str, ...]:
+    """The word that lets Hydra find their configurations, and those in places of the user's own.
+
+    None when there are none.
+    """
+    places = [*(f"pkg://{package}" for package in packages()), *own]
+    return (f"hydra.searchpath=[{','.join(places)}]",) if places else ()

@@ -17,6 +17,7 @@ from cli.build import Config
 from cli.check import checked
 from cli.errors import BAD_INPUT, DEVICE, DONE, INTERRUPTED, NOT_TRUE, is_refusal, say
 from cli.folder import make_run_folder, unmake_run_folder
+from cli.following import OWN
 from cli.interruption import STOP, sigterm_like_ctrl_c
 from cli.report import show, show_ended
 from cli.run import Outcome, Run
@@ -84,7 +85,7 @@ def failed_device(error: Exception) -> str | None:
 
 
 def _run(command: str, cfg: Config, work: Work) -> int:
-    typed = list(HydraConfig.get().overrides.task)
+    typed = _typed()
     run = Run(command, cfg, make_run_folder(_out(cfg), command), typed, _sweep())
     try:
         outcome = work(run)
@@ -112,6 +113,17 @@ def _run(command: str, cfg: Config, work: Work) -> int:
         return DEVICE
     finally:
         run.close()
+
+
+def _typed() -> list[str]:
+    """The words after the command, as they can be typed again."""
+    hydra = HydraConfig.get()
+    own = [
+        f"{OWN}{os.path.relpath(source.path)}"
+        for source in hydra.runtime.config_sources
+        if source.provider == "command-line"
+    ]
+    return [*own, *hydra.overrides.task]
 
 
 def _try_to_write_metrics(run: Run, status: str) -> None:

@@ -226,13 +226,16 @@ def doctor(
         list[str] | None,
         typer.Argument(metavar="KEY=VALUE", help="Whose devices, such as robot=katana."),
     ] = None,
+    config_dir: Annotated[
+        Path | None, typer.Option(help="Take robots of your own from here too.")
+    ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="For programs.")] = False,
 ) -> None:
     """Look whether all works here, and the devices of robot=..."""
     from cli.doctor import doctor
     from cli.job import attempt
 
-    raise typer.Exit(attempt(lambda: doctor(words or [], as_json)))
+    raise typer.Exit(attempt(lambda: doctor(words or [], config_dir, as_json)))
 
 
 @app.command()

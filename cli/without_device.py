@@ -3,9 +3,10 @@
 import shlex
 from collections.abc import Sequence
 
+from cli.following import OWN
 from cli.keys import groups
 
-DEVICES = ("robot", "camera", "neck")  # keys that name one
+DEVICES = (OWN, "robot", "camera", "neck")  # words that name one
 
 
 def instead(robot: str, typed: Sequence[str]) -> str:

@@ -7,7 +7,7 @@ import hydra
 from omegaconf import DictConfig
 
 from cli.build import Bench
-from cli.following import replay_of
+from cli.following import camera_words, replay_of
 from cli.job import job
 from cli.provenance import program_version
 from cli.run import Outcome, Run
@@ -35,13 +35,19 @@ def watch(run: Run) -> Outcome:
     delays = [round(later.time - state.time, 6) for state, later in pairwise(states)]
     played, complaint = play(run.bench, states)
     errors = [round(again - delay, 6) for again, delay in zip(played, delays, strict=False)]
-    replay = replay_of("{run}", run.cfg["robot"]["name"], run.typed)
+    camera = camera_words(run.typed) if shows_the_arm(run.bench) else []
+    replay = replay_of("{run}", run.cfg["robot"]["name"], run.typed, camera)
     return Outcome(
         metrics={"states": len(states), "delays_s": delays, "clock_error_s": errors},
         rows=rows(states, delays),
         next="imitate view {run}" if complaint else replay,
         complaint=complaint,
     )
+
+
+def shows_the_arm(bench: Bench) -> bool:
+    """Whether the camera that watched an action can show the arm itself: a film cannot."""
+    return "path" not in bench.cfg["camera"] and bench.robot.arm.live == bench.robot.camera.live
 
 
 def play(bench: Bench, states: Sequence[VisualState]) -> tuple[list[float], str | None]:
