@@ -56,9 +56,10 @@ def answer_to(fault: str) -> Answer:
     return answer
 
 
-def run(imitate, learned, fault: str, lasts: str) -> tuple[int, Recording]:
+def run(imitate, learned, fault: str, lasts: str, trials: int = 1) -> tuple[int, Recording]:
     """Reach while something goes wrong."""
     words = ["fault.at=0.2", f"fault.lasts={lasts}", "reach.limit=3", "seed=3", "out=run"]
+    words += [f"trials={trials}"]
     words += ["fault.watch.lost=1.5"] if "camera" in fault else []
     result = imitate("reach", "robot=ideal", f"map={learned}", f"fault={fault}", *words)
     assert "Traceback" not in result.stderr
@@ -84,7 +85,9 @@ def test_the_table_has_a_row_for_every_fault_and_names_no_other():
 
 @pytest.mark.parametrize("fault", FAULTS)
 def test_a_fault_that_stays_ends_as_the_table_says(imitate, learned, fault):
-    answer, (code, recording) = answer_to(fault), run(imitate, learned, fault, "null")
+    answer = answer_to(fault)
+    # One target may happen to be held: what is wrong is seen away from it.
+    code, recording = run(imitate, learned, fault, "null", trials=3)
     told = events(recording)
     assert code == answer.for_good
     assert ("device" in told) == (code == 3)
