@@ -255,6 +255,8 @@ class Checking(Section):
     frames: Count
     blocked: Positive
     tolerance: Positive
+    common: Positive
+    sure: Positive
 
 
 class CheckMap(Common):
