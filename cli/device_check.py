@@ -9,6 +9,7 @@ import numpy as np
 
 from cli.build import Bench, Config
 from cli.findings import FAIL, Finding, Suspicious, look
+from imitation.device import DeviceError
 from imitation.robot import SECOND, Arm, Observation, Shot
 from imitation.robots.katana.arm import KatanaArm
 from imitation.robots.katana.commands import Status
@@ -44,7 +45,7 @@ def _of_arm(bench: Bench) -> Iterator[Finding]:
         arm.reset(bench.guided.mean(axis=0))
     yield look("joints", lambda: _joints(arm), device=True)
     if isinstance(arm, KatanaArm):
-        yield look("motors", lambda: _motors(arm), device=True)
+        yield look("motors", lambda: _motors(arm, bench.cfg), device=True)
         yield look("gripper", lambda: _gripper(arm), device=True)
     if isinstance(arm, ServoArm):
         yield look("servos", lambda: _servos(arm), device=True)
@@ -83,16 +84,20 @@ def _joints(arm: Arm) -> str:
     return told
 
 
-def _motors(arm: KatanaArm) -> str:
+def _motors(arm: KatanaArm, cfg: Config) -> str:
     began, calls = time.monotonic(), 5
     for _ in range(calls):
         statuses = arm.katana.statuses()
     each = (time.monotonic() - began) / calls
     told = f"status {' '.join(map(str, statuses))}, {1000 * each:.0f} ms a call"
+    driving = cfg["robot"]["arm"]["driving"]
+    # A run that is told so puts them right; every other one ends with exit code 3.
+    mended = driving["calibrate"] or driving["unblock"]
+    trouble = Suspicious if mended else DeviceError
     if Status.CRASHED in statuses:
-        raise Suspicious(f"{told}: one has collided; free it, robot.arm.driving.unblock=true")
+        raise trouble(f"{told}: one has collided; free it, robot.arm.driving.unblock=true")
     if Status.OFF in statuses:
-        raise Suspicious(f"{told}: off; type robot.arm.driving.calibrate=true or .unblock=true")
+        raise trouble(f"{told}: off; type robot.arm.driving.calibrate=true or .unblock=true")
     return told
 
 

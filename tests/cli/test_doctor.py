@@ -3,7 +3,7 @@
 import json
 
 import pytest
-from emulated import served
+from emulated import katana_device, served
 
 from imitation.robots.servo_bus_emulator import ServoBusEmulator
 
@@ -49,6 +49,16 @@ def test_the_servos_of_a_bus_tell_how_they_are(imitate):
     }
     assert warm["servos"]["verdict"] == "warn"
     assert "let shoulder_lift cool" in warm["servos"]["told"]
+
+
+def test_a_katana_with_which_no_run_can_begin_fails_unless_it_is_to_be_put_right(imitate):
+    with served(katana_device("400", "uncalibrated")) as where:
+        words = ("robot=katana", f"robot.arm.address={where}", "camera.device=/dev/nothing")
+        failed = found(imitate("doctor", *words, "--json"))
+        mended = found(imitate("doctor", *words, "robot.arm.driving.calibrate=true", "--json"))
+    assert failed["motors"]["verdict"] == "fail"
+    assert "robot.arm.driving.calibrate=true" in failed["motors"]["told"]
+    assert mended["motors"]["verdict"] == "warn"
 
 
 def test_devices_that_do_not_answer_are_told_with_what_to_type(imitate):
