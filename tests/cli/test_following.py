@@ -3,7 +3,13 @@
 import json
 import shlex
 
+import pytest
+from made_up_films import film
+
+from cli.build import Bench
+from cli.experiments import composed
 from cli.following import camera_words, reach_with, replay_of
+from cli.jobs.demo_record import shows_the_arm
 
 TYPED = ("--config-dir=my arms", "robot=mine", "camera.device=/dev/video0", "vision=skin")
 
@@ -24,6 +30,16 @@ def test_a_map_for_a_replay_is_learned_with_the_camera_that_watched(tmp_path, mo
     learn, replay = replay_of("run", "mine", TYPED, camera_words(TYPED)).split(" && ")
     assert "camera.device=/dev/video0" in learn and "camera.device=/dev/video0" in replay
     assert "vision=skin" not in learn  # the hand that was watched need not look like the arm's own
+
+
+@pytest.mark.parametrize("camera", [("video", "path"), ("webcam", "device")])
+def test_a_film_and_a_live_camera_show_no_simulated_arm(tmp_path, camera):
+    film(tmp_path / "film.mp4", frames=5)
+    words = (f"camera={camera[0]}", f"camera.{camera[1]}={tmp_path / 'film.mp4'}")
+    watched, itself = (Bench(composed("demo-record", "robot=ideal", *more)) for more in (words, ()))
+    assert not shows_the_arm(watched)
+    assert shows_the_arm(itself)
+    watched.close()
 
 
 def test_ones_own_configurations_are_named_in_what_follows():
