@@ -19,12 +19,12 @@ ROUNDING = 1e-9
 # How much harder it brakes before a limit that came earlier than it should: an arm that is not
 # just where its commands led it may be told to stop at once.
 EARLIER, AT_ONCE = 1.001, 4.0
-# Steps in the normal suite and in the slow one: over a million in all.
+# Steps in the normal suite and in the slow one.
 STEPS = {
     "ideal": (2000, 1_000_000),
     "katana_sim": (500, 1_000_000),
-    "kuka_sim": (300, 200_000),
-    "so101_sim": (500, 200_000),
+    "kuka_sim": (300, 1_000_000),
+    "so101_sim": (500, 1_000_000),
 }
 THROUGH_A_WIRE = 300, 50_000  # for each body that has one
 ELSEWHERE = 0.005  # in an engine the arm is not just where its commands led it [rad]
