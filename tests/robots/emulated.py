@@ -13,7 +13,7 @@ from imitation.robots.katana.models import MODELS
 from imitation.robots.serving import Device, Server
 
 SPEED = 50.0  # times faster than a real device
-TIMEOUT = 0.1  # for a reply [s]
+TIMEOUT = 0.15  # for a reply; four of them outlast the late one of an emulator [s]
 
 
 @contextmanager
